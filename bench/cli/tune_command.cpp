@@ -94,6 +94,7 @@ Result<Answer> finish(const TuneArguments& arguments, const TuneResult& result) 
   }
   const auto left_out = left_out_lines(result);
   for (const std::string& line : left_out) print_out("INVALID RUNS: {}\n", line);
+  for (const std::string& line : failed_lines(result)) print_out("FAILED RUNS: {}\n", line);
   print_out("results: {}\n", (out / "tune.md").string());
   Json document = tune_json(result);
   document["out"] = out.string();

@@ -30,7 +30,7 @@ FrontVerdict front_verdict_of(std::span<const PairedGain> gains) {
   bool better = false;
   bool worse = false;
   for (const PairedGain& each : gains) {
-    if (!each.gain || each.sequences < kFewestPairs) return FrontVerdict::kTooFew;
+    if (!each.gain || each.all_diverged || each.sequences < kFewestPairs) return FrontVerdict::kTooFew;
     if (!is_significant(each)) continue;
     (*each.gain > 0.0 ? better : worse) = true;
   }
@@ -73,6 +73,7 @@ PairedGain paired_gain(const ResponseTable& table, const Objective& objective, s
   };
   PairedGain result;
   result.sequences = cases.size();
+  result.all_diverged = all_diverged(table);
   result.gain = gain(cases);
   if (cases.size() < kFewestPairs) return result;
   result.p = paired_test(differences).p;
@@ -88,7 +89,9 @@ PairedGain paired_gain(const ResponseTable& table, const Objective& objective, s
 }
 
 Verdict verdict_of(const PairedGain& held_out) {
-  if (!held_out.gain || held_out.sequences < 2) return Verdict::kUndecided;
+  if (!held_out.gain || held_out.all_diverged || held_out.sequences < 2) {
+    return Verdict::kUndecided;
+  }
   if (held_out.sequences < kFewestPairs) {
     return *held_out.gain < 0.0 ? Verdict::kDoNotUse : Verdict::kUndecided;
   }
@@ -101,6 +104,10 @@ std::string verdict_text(const PairedGain& held_out) {
            "on may be overfitting";
   }
   if (!held_out.gain) return "not validated: the objective has no gain on the held-out sequences";
+  if (held_out.all_diverged) {
+    return "undecided: every held-out run diverged or failed, with the defaults and with the tuned "
+           "values";
+  }
   const std::string change = change_text(*held_out.gain);
   if (held_out.sequences == 1) {
     return fmt::format("nothing can be concluded from one held-out sequence ({} on it)", change);

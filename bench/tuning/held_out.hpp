@@ -18,6 +18,7 @@ struct PairedGain {
   /// 95 %, of the gain: bootstrap over sequences, each with both its runs; empty below
   /// `kFewestPairs` sequences.
   Interval interval;
+  bool all_diverged = false;  ///< every run, of both
   double p = 1.0;  ///< of the sign-flip test over sequences (bench/metrics/paired_test.hpp)
 };
 

@@ -108,8 +108,9 @@ std::string unit_of_score(const std::string& score) {
 
 RunScore run_score(const JobResult& job, const std::string& score) {
   if (auto reason = invalid_reason(job.sequence)) return {std::nullopt, false, std::move(*reason)};
-  return {score_in(job, score), job.outcome != JobOutcome::kDone || score_in(job, "success") == 0.0,
-          ""};
+  const bool done = job.outcome == JobOutcome::kDone;
+  return {score_in(job, score), !done || score_in(job, "success") == 0.0, "",
+          done ? "" : job.message};
 }
 
 std::optional<double> objective_value(const Objective& objective, std::span<const RunScore> runs,
@@ -159,27 +160,52 @@ std::vector<std::string> families_of(const ResponseTable& table) {
   return families;
 }
 
-std::vector<std::string> left_out_lines(const ResponseTable& table) {
+namespace {
+
+/// A line per case with runs for which `reason_of` gives a reason: "CASE: N of M runs WHAT (REASON)".
+template <class ReasonOf>
+std::vector<std::string> lines_of(const ResponseTable& table, const char* what,
+                                  ReasonOf&& reason_of) {
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < table.cases.size(); ++i) {
     std::size_t runs = 0;
-    std::size_t invalid = 0;
+    std::size_t counted = 0;
     std::string reason;
     const auto look_at = [&](const std::vector<RunScore>& of_point) {
       if (i >= of_point.size()) return;
       ++runs;
-      if (of_point[i].invalid.empty()) return;
-      ++invalid;
-      reason = of_point[i].invalid;
+      const std::string& of_run = reason_of(of_point[i]);
+      if (of_run.empty()) return;
+      ++counted;
+      reason = of_run;
     };
     look_at(table.default_runs);
     for (const auto& of_point : table.runs) look_at(of_point);
-    if (invalid == 0) continue;
-    lines.push_back(fmt::format("{} seed {}: {} of {} runs are invalid and left out ({})",
-                                table.cases[i].scenario, table.cases[i].seed, invalid, runs,
-                                reason));
+    if (counted == 0) continue;
+    lines.push_back(fmt::format("{} seed {}: {} of {} runs {} ({})", table.cases[i].scenario,
+                                table.cases[i].seed, counted, runs, what, reason));
   }
   return lines;
+}
+
+}  // namespace
+
+std::vector<std::string> left_out_lines(const ResponseTable& table) {
+  return lines_of(table, "are invalid and left out",
+                  [](const RunScore& run) -> const std::string& { return run.invalid; });
+}
+
+std::vector<std::string> failed_lines(const ResponseTable& table) {
+  return lines_of(table, "failed",
+                  [](const RunScore& run) -> const std::string& { return run.failure; });
+}
+
+bool all_diverged(const ResponseTable& table) {
+  const auto diverged = [](const std::vector<RunScore>& runs) {
+    return std::ranges::all_of(
+        runs, [](const RunScore& run) { return run.diverged || !run.invalid.empty(); });
+  };
+  return diverged(table.default_runs) && std::ranges::all_of(table.runs, diverged);
 }
 
 std::vector<std::uint64_t> seeds_of(const ResponseTable& table) {

@@ -21,7 +21,7 @@ enum class ObjectiveStatistic { kMedian, kWorst, kMean, kQuantile };
 /// One number for many runs, of which less is better: a statistic of their *scores*, which are as
 /// measured, with a penalty for those that diverged.
 struct Objective {
-  std::string score = "ate_m";  ///< dotted key of scores.json, e.g. "m_list_percent.all"
+  std::string score = "ate_yaw_m";  ///< dotted key of scores.json, e.g. "m_list_percent.all"
   ObjectiveStatistic statistic = ObjectiveStatistic::kMedian;
   double quantile = 0.9;           ///< for `kQuantile`, in (0, 1)
   bool relative = true;            ///< each score over that of the defaults on the same sequence
@@ -44,6 +44,7 @@ struct RunScore {
   std::optional<double> value;  ///< none: the run has no such score
   bool diverged = false;        ///< no success, or the job failed
   std::string invalid = {};     ///< why the run is invalid (validity.hpp); empty: it is valid
+  std::string failure = {};     ///< why the job failed; empty: it did not
 };
 
 /// The score of that key of a job. A job that failed is a diverged run; an invalid run has no score
@@ -89,6 +90,13 @@ std::vector<std::string> families_of(const ResponseTable& table);
 /// A line per case with invalid runs: "corridor seed 3: 5 of 13 runs are invalid and left out (the
 /// robot fell at 1.2 s)".
 std::vector<std::string> left_out_lines(const ResponseTable& table);
+
+/// The same of jobs that failed: "corridor seed 3: 5 of 13 runs failed (no result after 600 s)".
+std::vector<std::string> failed_lines(const ResponseTable& table);
+
+/// Whether no run at all, of any point or the defaults, ended without diverging: such a table says
+/// nothing about its parameters.
+bool all_diverged(const ResponseTable& table);
 
 /// The seeds of the table's cases, in the order in which they appear.
 std::vector<std::uint64_t> seeds_of(const ResponseTable& table);

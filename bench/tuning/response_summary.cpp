@@ -195,6 +195,7 @@ std::string response_markdown(const ResponseTable& table, const Objective& objec
                         percent_text(best->gain, best->gain_interval));
   }
   for (const std::string& line : left_out_lines(table)) text += fmt::format("- {}\n", line);
+  for (const std::string& line : failed_lines(table)) text += fmt::format("- {}\n", line);
   const std::size_t seeds = seeds_of(table).size();
   text += seeds < 2 ? "One seed: no intervals.\n"
                     : fmt::format("Intervals are 95 % bootstrap intervals over {} seeds{}.\n",

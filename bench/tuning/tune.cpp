@@ -75,6 +75,9 @@ class Tuning {
       ResponseTable& table = result_.tables[i];
       const Objective& objective = task.plan.objectives[i];
       table.default_runs = runs_in((**scores).front(), i);
+      if (const auto failed = failed_lines(table); failed.size() == table.cases.size()) {
+        return failure("no run with the default values ended: " + failed.front());
+      }
       if (objective_at(table, objective, kDefaults, cases_of(table, ""))) continue;
       const auto left_out = left_out_lines(table);
       if (!left_out.empty()) return failure("no valid run is left: " + left_out.front());

@@ -284,13 +284,27 @@ TextTable front_table(const TuneResult& result) {
   return text;
 }
 
-std::vector<std::string> left_out_lines(const TuneResult& result) {
+namespace {
+
+/// Lines about the sequences tuned on and those held out.
+std::vector<std::string> of_both(const TuneResult& result,
+                                 std::vector<std::string> (*lines_of)(const ResponseTable&)) {
   std::vector<std::string> lines;
-  if (!result.tables.empty()) lines = left_out_lines(result.tables.front());
+  if (!result.tables.empty()) lines = lines_of(result.tables.front());
   if (result.held_out.empty()) return lines;
-  const auto held_out = left_out_lines(result.held_out.front());
+  const auto held_out = lines_of(result.held_out.front());
   lines.insert(lines.end(), held_out.begin(), held_out.end());
   return lines;
+}
+
+}  // namespace
+
+std::vector<std::string> left_out_lines(const TuneResult& result) {
+  return of_both(result, left_out_lines);
+}
+
+std::vector<std::string> failed_lines(const TuneResult& result) {
+  return of_both(result, failed_lines);
 }
 
 Result<void> write_tuning(const TuneResult& result, const std::filesystem::path& folder,

@@ -53,4 +53,7 @@ Result<void> write_tuning(const TuneResult& result, const std::filesystem::path&
 /// A line per sequence whose run is invalid, of those tuned on and those held out.
 std::vector<std::string> left_out_lines(const TuneResult& result);
 
+/// A line per sequence on which jobs failed, with the reason of one.
+std::vector<std::string> failed_lines(const TuneResult& result);
+
 }  // namespace aims

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "sim/environment/surface_relief.hpp"
 #include "sim/environment/triangles.hpp"
 
 namespace aims {
@@ -102,6 +103,24 @@ void extract(const RTCRayHit16& packet, const RayPacket& rays, HitPacket& hits) 
   }
 }
 
+/// Moves the hits onto the relief of their surfaces.
+void displace(const SurfaceRelief& relief, const RayPacket& rays, HitPacket& hits) {
+  for (int i = 0; i < kRayPacketSize; ++i) {
+    if (hits.surface[i] < 0) continue;
+    const Eigen::Vector3f origin(rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]);
+    const Eigen::Vector3f direction(rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]);
+    const SurfaceRelief::Moved moved =
+        relief.moved({origin + hits.distance[i] * direction, direction,
+                      {hits.normal_x[i], hits.normal_y[i], hits.normal_z[i]},
+                      hits.surface[i]});
+    hits.distance[i] += moved.farther;
+    hits.normal_x[i] = moved.normal.x();
+    hits.normal_y[i] = moved.normal.y();
+    hits.normal_z[i] = moved.normal.z();
+    hits.texture[i] = moved.reflectivity;
+  }
+}
+
 }  // namespace
 
 struct RayCaster::Impl {
@@ -109,6 +128,7 @@ struct RayCaster::Impl {
   RTCScene scene = rtcNewScene(device);
   std::vector<Material> materials;
   std::vector<Person> people;
+  std::optional<SurfaceRelief> relief;
   std::size_t triangle_count = 0;
 
   Impl() = default;
@@ -139,6 +159,9 @@ RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>()) {
   }
   impl_->add(triangulate(scene.floor), scene.floor.material, true);
   commit(impl_->scene);
+  if (!scene.surface.is_plain()) {
+    impl_->relief.emplace(scene.surface, scene, scene.surface_seed);
+  }
 }
 
 RayCaster::RayCaster(RayCaster&&) noexcept = default;
@@ -155,6 +178,7 @@ void RayCaster::cast(const RayPacket& rays, float max_distance, HitPacket& hits,
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect16(valid.data(), impl_->scene, &context, &packet);
   extract(packet, rays, hits);
+  if (impl_->relief) displace(*impl_->relief, rays, hits);
 }
 
 std::optional<RayHit> RayCaster::cast(const Eigen::Vector3d& origin,
@@ -183,12 +207,18 @@ std::optional<RayHit> RayCaster::cast(const Eigen::Vector3d& origin,
   Eigen::Vector3d normal =
       Eigen::Vector3d(single.hit.Ng_x, single.hit.Ng_y, single.hit.Ng_z).normalized();
   if (normal.dot(direction) > 0.0) normal = -normal;
-  return RayHit{single.ray.tfar, normal, static_cast<int>(single.hit.geomID)};
+  const auto surface = static_cast<int>(single.hit.geomID);
+  if (!impl_->relief) return RayHit{single.ray.tfar, normal, surface};
+  const SurfaceRelief::Moved moved = impl_->relief->moved(
+      {from + single.ray.tfar * towards, towards, normal.cast<float>(), surface});
+  return RayHit{single.ray.tfar + moved.farther, moved.normal.cast<double>(), surface};
 }
 
 const std::vector<Material>& RayCaster::materials() const { return impl_->materials; }
 
 const std::vector<Person>& RayCaster::people() const { return impl_->people; }
+
+bool RayCaster::has_relief() const { return impl_->relief.has_value(); }
 
 std::size_t RayCaster::triangle_count() const { return impl_->triangle_count; }
 

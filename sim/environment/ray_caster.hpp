@@ -27,6 +27,8 @@ struct alignas(64) HitPacket {
   Lanes distance{};                           ///< [m]; infinity: no hit within the range
   Lanes normal_x{}, normal_y{}, normal_z{};   ///< unit, towards the ray's origin
   std::array<int, kRayPacketSize> surface{};  ///< index into `RayCaster::materials`; -1: no hit
+  /// Factor of the reflectivity of the material; set where the scene has a relief or a texture.
+  Lanes texture{};
 };
 
 /// The first hit of one ray.
@@ -60,6 +62,8 @@ class RayCaster {
   /// The surface that is the floor.
   int floor_surface() const { return static_cast<int>(materials().size()) - 1; }
   std::size_t triangle_count() const;
+  /// Whether hits of the static scene have a `HitPacket::texture`.
+  bool has_relief() const;
 
   /// The scene's people. They move and are not part of the static scene; see `intersect_people`.
   const std::vector<Person>& people() const;

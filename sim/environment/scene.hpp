@@ -2,10 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "core/lie.hpp"
 #include "core/time.hpp"
+#include "sim/environment/building_config.hpp"
 
 namespace aims {
 
@@ -69,6 +71,8 @@ struct Scene {
   Floor floor;
   std::vector<Solid> solids;
   std::vector<Person> people;
+  SurfaceConfig surface;           ///< as the LiDAR sees solids and floor
+  std::uint64_t surface_seed = 0;  ///< of its fields
 };
 
 /// The scene as it looks at one instant, for pictures: people become solids.

@@ -111,6 +111,7 @@ void describe(Fields& f, SceneConfig& c) {
             .meaning = "Sliding friction coefficient of the floor."});
   f.group("bumps", c.bumps);
   f.group("reflectivity", c.reflectivity);
+  f.group("surface", c.surface);
   f.group("corridor", c.corridor);
   f.group("ramp", c.ramp);
   f.group("people", c.people);
@@ -181,6 +182,7 @@ Result<void> validate(const SceneConfig& config) {
   }
   if (auto ok = validate_kind(config); !ok) return ok;
   if (auto ok = validate_people(config); !ok) return ok;
+  if (auto ok = validate(config.surface); !ok) return ok;
   return validate(config.bumps, flat_floor(config));
 }
 
@@ -207,6 +209,8 @@ Scene build_scene(const SceneConfig& config, std::uint64_t run_seed) {
   }
   if (config.people.count > 0) scene.people = people_on(stretches_of(config), config.people, seed);
   scene.floor.material = {config.reflectivity.floor, {0.55F, 0.57F, 0.60F}};
+  scene.surface = config.surface;
+  scene.surface_seed = seed;
   add_bumps(config.bumps, seed, scene.floor);
   add_ramp(config.ramp, scene.floor);
   return scene;

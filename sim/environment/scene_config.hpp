@@ -72,6 +72,7 @@ struct SceneConfig {
   double floor_friction = 0.8;  ///< sliding friction under the feet [-], for the physics
   BumpConfig bumps;
   ReflectivityConfig reflectivity;
+  SurfaceConfig surface;
   CorridorConfig corridor;
   RampConfig ramp;  ///< corridor only
   PeopleConfig people;

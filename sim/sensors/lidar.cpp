@@ -150,6 +150,12 @@ void Lidar::cast(const std::array<Time, kRayPacketSize>& stamps, int count, Retu
           hits.normal_z[i] * rays.direction_z[i]);
     reflectivity[i] = hits.surface[i] < 0 ? 0.0F : reflectivity_[hits.surface[i]];
   }
+  if (caster_->has_relief()) {
+    for (int i = 0; i < kRayPacketSize; ++i) {
+      if (hits.surface[i] < 0 || hits.surface[i] >= caster_->first_moving_surface()) continue;
+      reflectivity[i] = std::min(reflectivity[i] * hits.texture[i], 1.0F);
+    }
+  }
   model_.strengths(reflectivity, each.cosine, each.strength);
 }
 

@@ -71,7 +71,7 @@ TEST_F(Sweeps, AreDoneOnceContinuedAndMerged) {
   for (const Outcome& each : {rest, merged}) {
     EXPECT_TRUE(std::regex_search(
         each.output,
-        std::regex("estimator +queue.max_ahead +objective +score \\(ate_m\\), median")))
+        std::regex("estimator +queue.max_ahead +objective +score \\(ate_yaw_m\\), median")))
         << each.output;
     EXPECT_TRUE(std::regex_search(each.output, std::regex("\nleg \\(default\\) +5 ")));
     for (const char* point : {"100", "150", "200"}) {

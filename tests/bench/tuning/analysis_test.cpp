@@ -162,7 +162,7 @@ TEST(BestPoint, NeedsAScore) {
   for (auto& runs : table.runs) runs.assign(runs.size(), {std::nullopt, false});
   const auto best = best_point(table, absolute());
   ASSERT_FALSE(best);
-  EXPECT_NE(best.error().message.find("'ate_m'"), std::string::npos);
+  EXPECT_NE(best.error().message.find("'ate_yaw_m'"), std::string::npos);
 }
 
 TEST(Sensitivity, TellsWhichParameterDoesNotMatter) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "bench/tuning/held_out.hpp"
 #include "bench/tuning/objective.hpp"
+#include "bench/tuning/sensitivity.hpp"
 
 namespace aims {
 namespace {
@@ -39,6 +41,44 @@ TEST(InvalidRunsOfTuning, AreCountedPerSequence) {
   EXPECT_EQ(left_out_lines(table),
             std::vector<std::string>{"corridor seed 3: 1 of 2 runs are invalid and left out (the "
                                      "robot fell at 1.2 s)"});
+}
+
+TEST(FailedRunsOfTuning, CountAsDivergedAndKeepTheirReason) {
+  JobResult job;
+  job.outcome = JobOutcome::kFailed;
+  job.message = "the sequence could not be simulated: no floor";
+  const RunScore run = run_score(job, "ate_m");
+  EXPECT_TRUE(run.diverged);
+  EXPECT_EQ(run.failure, job.message);
+  ResponseTable table;
+  table.cases = {{"corridor", "corridor", 3}};
+  table.runs = {{run}, {{0.1}}};
+  EXPECT_EQ(failed_lines(table),
+            std::vector<std::string>{"corridor seed 3: 1 of 2 runs failed (the sequence could not "
+                                     "be simulated: no floor)"});
+}
+
+// Where every run diverges the objective is the penalty everywhere: no parameter "has no effect".
+TEST(FailedRunsOfTuning, OfAllPointsSayNothingAboutParameters) {
+  ResponseTable table;
+  table.ranges = {{.key = "a", .low = 0.0, .high = 1.0}, {.key = "b", .low = 0.0, .high = 1.0}};
+  table.defaults = {0.5, 0.5};
+  table.cases = {{"corridor", "corridor", 1}, {"corridor", "corridor", 2}};
+  const std::vector<RunScore> lost = {{std::nullopt, true}, {std::nullopt, true}};
+  table.default_runs = lost;
+  for (const double a : {0.0, 0.5, 1.0}) {
+    for (const double b : {0.0, 0.5, 1.0}) {
+      table.points.push_back({a, b});
+      table.runs.push_back(lost);
+    }
+  }
+  EXPECT_TRUE(all_diverged(table));
+  const auto none = sensitivity_of(table, Objective());
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().message, "every run diverged or failed");
+  EXPECT_EQ(verdict_of(paired_gain(table, Objective(), 0)), Verdict::kUndecided);
+  table.runs.back().back() = {0.1};
+  EXPECT_FALSE(all_diverged(table));
 }
 
 }  // namespace

@@ -211,7 +211,7 @@ TEST(Tune, RefusesAScoreThatNoRunHas) {
     return Result<std::optional<SequenceScores>>(SequenceScores(estimators.size(), without));
   });
   ASSERT_FALSE(result);
-  EXPECT_TRUE(says(result.error().message, "'ate_m'"));
+  EXPECT_TRUE(says(result.error().message, "'ate_yaw_m'"));
 }
 
 TEST(Tune, TwoObjectivesGiveAFront) {
