@@ -70,7 +70,8 @@ void declare_merge(Command command, const fs::path& /*scenarios*/) {
   command.arguments("folder", arguments->folders, "Folders of aims sweep, finished or not",
                     Presence::kRequired);
   add_out(command, arguments->shared, "the first folder");
-  command.option("--score", arguments->score, "Key of scores.json that sweep.md analyses (ate_yaw_m)");
+  command.option("--score", arguments->score,
+                 "Key of scores.json that sweep.md analyses (ate_yaw_m)");
   command.footer(
       "Writes sweep.sqlite, sweep.csv, sweep.md and pictures.\n"
       "Examples:\n"

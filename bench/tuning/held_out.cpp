@@ -30,7 +30,8 @@ FrontVerdict front_verdict_of(std::span<const PairedGain> gains) {
   bool better = false;
   bool worse = false;
   for (const PairedGain& each : gains) {
-    if (!each.gain || each.all_diverged || each.sequences < kFewestPairs) return FrontVerdict::kTooFew;
+    if (!each.gain || each.all_diverged || each.sequences < kFewestPairs)
+      return FrontVerdict::kTooFew;
     if (!is_significant(each)) continue;
     (*each.gain > 0.0 ? better : worse) = true;
   }

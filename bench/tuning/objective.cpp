@@ -162,7 +162,8 @@ std::vector<std::string> families_of(const ResponseTable& table) {
 
 namespace {
 
-/// A line per case with runs for which `reason_of` gives a reason: "CASE: N of M runs WHAT (REASON)".
+/// A line per case with runs for which `reason_of` gives a reason: "CASE: N of M runs WHAT
+/// (REASON)".
 template <class ReasonOf>
 std::vector<std::string> lines_of(const ResponseTable& table, const char* what,
                                   ReasonOf&& reason_of) {

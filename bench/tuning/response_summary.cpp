@@ -180,9 +180,8 @@ std::string response_markdown(const ResponseTable& table, const Objective& objec
     for (const std::string& line : left_out_lines(table)) why += fmt::format("- {}\n", line);
     return why;
   }
-  const auto sensitivity = table.ranges.size() > 1
-                               ? sensitivity_of(table, objective)
-                               : Result<Sensitivity>(failure(kOneParameter));
+  const auto sensitivity = table.ranges.size() > 1 ? sensitivity_of(table, objective)
+                                                   : Result<Sensitivity>(failure(kOneParameter));
   std::string text = fmt::format(
       "Objective: {}.\nThe best of {} points has an objective of {} and a score (median {}) of {}; "
       "the defaults have an objective of {}.\n",

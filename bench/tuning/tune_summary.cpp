@@ -124,8 +124,7 @@ std::vector<std::string> outcome_row(const std::string& name, const ResponseTabl
 std::vector<PairedGain> front_gains(const TuneResult& result, std::size_t chosen) {
   std::vector<PairedGain> gains;
   for (std::size_t i = 0; i < result.held_out.size(); ++i) {
-    gains.push_back(
-        paired_gain(result.held_out[i], result.task.plan.objectives[i], chosen));
+    gains.push_back(paired_gain(result.held_out[i], result.task.plan.objectives[i], chosen));
   }
   return gains;
 }
@@ -171,8 +170,7 @@ Json tune_json(const TuneResult& result) {
   json["defaults"] = outcome_json(result, result.task.defaults, kDefaults, kDefaults);
   for (std::size_t k = 0; k < result.chosen.size(); ++k) {
     const std::size_t point = result.chosen[k];
-    json["chosen"].push_back(
-        outcome_json(result, result.tables.front().points[point], point, k));
+    json["chosen"].push_back(outcome_json(result, result.tables.front().points[point], point, k));
   }
   return json;
 }
@@ -213,7 +211,8 @@ std::string held_out_verdict(const TuneResult& result) {
 
 std::string front_verdict(const TuneResult& result) {
   if (result.held_out.empty()) {
-    return "not validated: no sequence was held out, and a gain on the sequences that were tuned on "
+    return "not validated: no sequence was held out, and a gain on the sequences that were tuned "
+           "on "
            "may be overfitting";
   }
   std::size_t better = 0;

@@ -53,11 +53,11 @@ void EskfEstimator::correct(const LegOdometrySample& sample) {
   report_pose_without_scan(sample.stamp);
 }
 
-/// The scale of legs that are measured foot by foot is known better than that of reported ones; a
-/// calibration of the robot knows it well enough to map from the start.
+/// The scale of legs that are measured foot by foot is known to 4 %, and that of a calibrated robot
+/// better: well enough to map from the estimate. Only reported velocities need the second belief.
 void EskfEstimator::meet_legs(bool by_feet) {
   belief_ = robot_.at_first_legs(belief_, by_feet);
-  if (robot_.legs_are_known() && !measures_legs(config_)) mapping_.reset();
+  if ((by_feet || robot_.legs_are_known()) && !measures_legs(config_)) mapping_.reset();
 }
 
 /// Zero-order hold of lost leg packets, for the variant that does not notice the loss.
@@ -77,16 +77,15 @@ LinearMeasurement EskfEstimator::reported_velocity(const LegOdometrySample& samp
   const LegConfig& legs = mapping_ ? kLegsOfUnknownScale : config_.legs;
   const Eigen::Matrix3d nominal =
       leg_velocity_noise(legs, rig_.leg_rate_hz, belief_.state.velocity.norm());
-  const Eigen::Matrix3d noise =
-      with_density(nominal, velocity_noise_.density(), rig_.leg_rate_hz) / lidar_update_.gamma_leg();
+  const Eigen::Matrix3d noise = with_density(nominal, velocity_noise_.density(), rig_.leg_rate_hz) /
+                                lidar_update_.gamma_leg();
   const Eigen::Vector3d rate =
       queue_.imu().angular_velocity_at(sample.stamp).value_or(belief_.state.gyro_bias);
   velocity_ = stride_means_.update(sample.stamp, sample.linear_velocity);
   const NominalState& state = belief_.state;
-  velocity_noise_.add(sample.stamp,
-                      state.rotation * rig_.T_body_base.rotation *
-                          (velocity_.measured - state.leg_bias -
-                           state.leg_scale.cwiseProduct(velocity_.stride_mean)));
+  velocity_noise_.add(sample.stamp, state.rotation * rig_.T_body_base.rotation *
+                                        (velocity_.measured - state.leg_bias -
+                                         state.leg_scale.cwiseProduct(velocity_.stride_mean)));
   return leg_velocity_model(belief_.state, rig_.T_body_base, rate, velocity_, noise);
 }
 

@@ -30,9 +30,9 @@ constexpr int kSearchEvery = 5;
 /// Smaller offsets are left to the residuals, which reach as far.
 constexpr double kMinOffset = 0.5 * kMaxResidual;
 
-/// kFreeTilt of a map whose scans were placed by all information, map noise included: both halves
-/// then share that error (docs/decisions.md) [rad].
-constexpr double kFreeTiltOfNoise = 0.009;
+/// Tilt that both halves share of a map whose scans were placed by all information, the noise of
+/// the map included (docs/decisions.md) [rad].
+constexpr double kSharedTilt = 0.009;
 
 /// An axis of the position [odometry axes] and the deviation along it [m].
 struct Uncertainty {
@@ -118,8 +118,8 @@ GainMask LidarUpdate::scan_mask(const NominalState& state) const {
   return {.legs = false, .translation = translation};
 }
 
-double LidarUpdate::free_tilt() const {
-  return part_ == ScanPart::kAll ? kFreeTiltOfNoise : kFreeTilt;
+std::optional<double> LidarUpdate::shared_tilt() const {
+  return part_ == ScanPart::kAll ? std::optional(kSharedTilt) : std::nullopt;
 }
 
 Belief LidarUpdate::fuse_velocity(const Belief& belief, const LinearMeasurement& velocity,
@@ -188,7 +188,7 @@ IteratedUpdate LidarUpdate::trial(const Belief& predicted, std::span<const Eigen
     scan_ = matcher_.linearize(pose);
     diagnostics.points_used = scan_.used;
     if (scan_.used < kMinMatches) return std::nullopt;
-    if (first && cross_validation_.enabled) fraction_.add(scan_.halves, at.position, free_tilt());
+    if (first && cross_validation_.enabled) fraction_.add(scan_.halves, at.position, shared_tilt());
     first = false;
     return fused(part_, 1.0, at);
   };

@@ -71,7 +71,7 @@ class LidarUpdate {
   const Eigen::Matrix3d& map_covariance() const { return map_covariance_; }
 
  private:
-  double free_tilt() const;
+  std::optional<double> shared_tilt() const;
   GainMask scan_mask(const NominalState& state) const;
   Linearization fused(ScanPart part, double gamma, const NominalState& state) const;
   NominalState first_guess(const Belief& predicted, std::span<const Eigen::Vector3f> points,

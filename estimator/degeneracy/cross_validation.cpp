@@ -21,6 +21,11 @@ constexpr double kStartDistance = 1.0;  // [m]
 /// Distance over which information is averaged: a few times the reach of the neighbours of a plane,
 /// so that the noise is seen several times anew [m].
 constexpr double kAveragingDistance = 3.0;
+/// Distance over which scans share the noise of the map: a plane has neighbours half a metre off
+/// [m].
+constexpr double kNoiseDistance = 0.5;
+/// Deviations of its average by which information exceeds zero.
+constexpr double kConfidence = 3.0;
 
 /// What is left of a real fraction when the share `free` of the information is none.
 double without(double free, double fraction) {
@@ -48,7 +53,7 @@ void describe(Fields& f, CrossValidationConfig& c) {
 /// noise. Later scans weigh more the farther the robot is from the start, where both halves of the
 /// map share the pattern of the rings.
 void CrossValidatedInformation::add(const HalvesInformation& scan, const Eigen::Vector3d& position,
-                                    double free_tilt) {
+                                    std::optional<double> shared_tilt) {
   const bool first = !last_position_;
   const double moved = first ? 0.0 : (position - *last_position_).norm();
   if (!first && moved < kMinShift) return;
@@ -57,8 +62,32 @@ void CrossValidatedInformation::add(const HalvesInformation& scan, const Eigen::
   const double kept = std::exp(-moved / kAveragingDistance);
   const double added = (1.0 - kept) * (1.0 - std::exp(-distance_ / kStartDistance));
   weight_ = kept * weight_ + added;
-  average(scan, first ? 1.0 : added / weight_);
-  update_fraction(free_tilt);
+  const double gain = first ? 1.0 : added / weight_;
+  average(scan, gain);
+  const double tilt = tilt_of_noise(scan, gain);
+  update_fraction(shared_tilt.value_or(tilt));
+}
+
+/// The tilt that the noise of the average may pretend towards the weakest axis, kFreeTilt at first
+/// [rad]. An average over the distance L of a scatter that is correlated over l has its deviation
+/// times (l / (l + L))^(1/2).
+double CrossValidatedInformation::tilt_of_noise(const HalvesInformation& scan, double gain) {
+  static const double kOfAverage =
+      std::sqrt(kNoiseDistance / (kNoiseDistance + kAveragingDistance));
+  constexpr double kLimit = kFreeTilt * kFreeTilt;
+  const double weights = scan.within.bottomRightCorner<3, 3>().trace() + kRegularization;
+  const double square =
+      weakest_axis_.dot(position_information(scan.across) * weakest_axis_) / weights;
+  auto& [mean, variance] = squared_tilt_;
+  if (gain == 1.0) {  // of one scan nothing is known
+    mean = square;
+    variance = std::pow(kLimit / (kConfidence * kOfAverage), 2);
+  } else {
+    const double difference = square - mean;
+    mean += gain * difference;
+    variance = (1.0 - gain) * (variance + gain * difference * difference);
+  }
+  return std::sqrt(std::min(kLimit, kConfidence * kOfAverage * std::sqrt(variance)));
 }
 
 void CrossValidatedInformation::average(const HalvesInformation& scan, double gain) {
@@ -85,6 +114,7 @@ void CrossValidatedInformation::update_fraction(double free_tilt) {
     if (fraction(i) > 0.0) step(i) = without(tilt, f) / std::min(f, 1.0);
     const Eigen::Vector3d axis = V.col(i).normalized();
     if (fraction(i) <= 0.0) constrained_ -= axis * axis.transpose();
+    if (i == 0) weakest_axis_ = axis;
   }
   weakest_ = fraction.minCoeff();
   const auto undo = [&](const Eigen::Array3d& diagonal) -> Eigen::Matrix3d {

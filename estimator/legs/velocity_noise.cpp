@@ -39,8 +39,9 @@ void VelocityNoise::at_scan(Time stamp, const Pose& T_odom_base, bool measured) 
   if (window_ && stamp - window_->start < kWindow) return;
   if (window_ && stamp - window_->start <= kLongestWindow) {
     const double duration = to_seconds(stamp - window_->start);
-    const Eigen::Vector3d difference = T_odom_base.rotation.conjugate() *
-                                       (window_->way - (T_odom_base.translation - window_->position));
+    const Eigen::Vector3d difference =
+        T_odom_base.rotation.conjugate() *
+        (window_->way - (T_odom_base.translation - window_->position));
     ++windows_;
     const double gain = 1.0 / std::min(windows_, kAveragedWindows);
     density_ += gain * (difference.cwiseAbs2() / duration - density_);

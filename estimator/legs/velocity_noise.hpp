@@ -31,7 +31,7 @@ class VelocityNoise {
  private:
   struct Window {
     Time start;
-    Eigen::Vector3d position;  ///< of the base at the start, odometry axes [m]
+    Eigen::Vector3d position;                       ///< of the base at the start, odometry axes [m]
     Eigen::Vector3d way = Eigen::Vector3d::Zero();  ///< by legs since then [m]
   };
 

@@ -110,7 +110,8 @@ void displace(const SurfaceRelief& relief, const RayPacket& rays, HitPacket& hit
     const Eigen::Vector3f origin(rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]);
     const Eigen::Vector3f direction(rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]);
     const SurfaceRelief::Moved moved =
-        relief.moved({origin + hits.distance[i] * direction, direction,
+        relief.moved({origin + hits.distance[i] * direction,
+                      direction,
                       {hits.normal_x[i], hits.normal_y[i], hits.normal_z[i]},
                       hits.surface[i]});
     hits.distance[i] += moved.farther;

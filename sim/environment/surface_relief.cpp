@@ -29,8 +29,7 @@ struct Harmonic {
 
 }  // namespace
 
-PeriodicField::PeriodicField(double deviation, double shortest, double longest,
-                             RandomStream random)
+PeriodicField::PeriodicField(double deviation, double shortest, double longest, RandomStream random)
     : nodes_(static_cast<std::size_t>(kColumns) * kRows, 0.0F) {
   if (deviation == 0.0) return;
   double variance = 0.0;
@@ -39,7 +38,8 @@ PeriodicField::PeriodicField(double deviation, double shortest, double longest,
     const double direction = random.uniform(0.0, kTurn);
     const double phase = random.uniform(0.0, kTurn);
     // Whole waves around, so that the field is periodic.
-    const auto along = static_cast<int>(std::lround(kColumns * kCell / length * std::cos(direction)));
+    const auto along =
+        static_cast<int>(std::lround(kColumns * kCell / length * std::cos(direction)));
     const auto up = static_cast<int>(std::lround(kRows * kCell / length * std::sin(direction)));
     const double amplitude = std::sqrt(length);
     if (along != 0 || up != 0) variance += 0.5 * amplitude * amplitude;
@@ -88,11 +88,10 @@ SurfaceRelief::SurfaceRelief(const SurfaceConfig& config, const Scene& scene, st
       int u = (normal + 1) % 3;
       int v = (normal + 2) % 3;
       if (half_extents[v] > half_extents[u]) std::swap(u, v);  // u is the longer side
-      box.faces[normal] = {box.axes.col(u), box.axes.col(v),
-                           static_cast<float>(offsets.uniform(0.0, PeriodicField::kColumns) *
-                                              PeriodicField::kCell),
-                           static_cast<float>(offsets.uniform(0.0, PeriodicField::kRows) *
-                                              PeriodicField::kCell)};
+      box.faces[normal] = {
+          box.axes.col(u), box.axes.col(v),
+          static_cast<float>(offsets.uniform(0.0, PeriodicField::kColumns) * PeriodicField::kCell),
+          static_cast<float>(offsets.uniform(0.0, PeriodicField::kRows) * PeriodicField::kCell)};
     }
     boxes_.push_back(box);
   };
@@ -123,8 +122,7 @@ SurfaceRelief::Moved SurfaceRelief::moved(const Hit& hit) const {
   const float along_v = face.v.dot(hit.direction);
   const float cosine = -hit.normal.dot(hit.direction);
   const auto step_of = [&](float height, const PeriodicField::Sample& at) {
-    return -height /
-           std::max(cosine + at.slope_u * along_u + at.slope_v * along_v, kLeastCosine);
+    return -height / std::max(cosine + at.slope_u * along_u + at.slope_v * along_v, kLeastCosine);
   };
   float farther = step_of(first.value, first);
   const PeriodicField::Sample at = heights_.at(u + farther * along_u, v + farther * along_v);

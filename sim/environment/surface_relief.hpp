@@ -38,8 +38,9 @@ class PeriodicField {
 };
 
 /// Displaces rays' hits on the boxes and the floor of a scene by the relief of their surfaces, to
-/// first order along each ray; cylinders, glass and people stay as they are. Reliefs of neighbouring
-/// solids are independent. Nothing else sees it: the feet walk on planes, and pictures show them.
+/// first order along each ray; cylinders, glass and people stay as they are. Reliefs of
+/// neighbouring solids are independent. Nothing else sees it: the feet walk on planes, and pictures
+/// show them.
 class SurfaceRelief {
  public:
   /// A hit on the smooth surface, to be moved.
@@ -51,9 +52,9 @@ class SurfaceRelief {
   };
   /// What the relief makes of it.
   struct Moved {
-    float farther = 0.0F;                                ///< along the ray [m]
+    float farther = 0.0F;                               ///< along the ray [m]
     Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();  ///< unit, towards the ray's origin
-    float reflectivity = 1.0F;                           ///< factor
+    float reflectivity = 1.0F;                          ///< factor
   };
 
   SurfaceRelief(const SurfaceConfig& config, const Scene& scene, std::uint64_t seed);
@@ -63,10 +64,10 @@ class SurfaceRelief {
  private:
   /// Axes of a box and where its faces are cut out of the fields.
   struct Face {
-    Eigen::Vector3f u;         ///< unit, world
-    Eigen::Vector3f v;         ///< unit, world
-    float offset_u = 0.0F;     ///< [m]
-    float offset_v = 0.0F;     ///< [m]
+    Eigen::Vector3f u;      ///< unit, world
+    Eigen::Vector3f v;      ///< unit, world
+    float offset_u = 0.0F;  ///< [m]
+    float offset_v = 0.0F;  ///< [m]
   };
   struct Box {
     bool smooth = true;

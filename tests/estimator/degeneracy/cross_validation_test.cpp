@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
+#include <optional>
 
 #include "core/random.hpp"
 #include "estimator/lidar/plane_model.hpp"
@@ -136,19 +137,42 @@ TEST(CrossValidatedInformation, ThePatternOfTheStartConstrainsNothing) {
   }
 }
 
-TEST(CrossValidatedInformation, TheLimitOnTheTiltDecidesWhatIsFree) {
-  constexpr double kTilt = 0.0075;  // of the planes towards the corridor's axis [rad]
-  for (const double limit : {0.006, 0.009}) {
-    CrossValidatedInformation fraction;
-    for (double distance = 0.0; distance < 10.0; distance += kStep) {
-      HalvesInformation scan;
-      scan.within.diagonal() << 1.0, 1.0, 1.0, 1.0, 300.0, 300.0;
-      scan.across = scan.within;
-      scan.across(3, 3) = kTilt * kTilt * scan.within.bottomRightCorner<3, 3>().trace();
-      fraction.add(scan, Eigen::Vector3d(distance, 0.0, 0.0), limit);
-    }
-    EXPECT_EQ(fraction.leaves_direction_free(), kTilt < limit) << "limit " << limit;
+/// Scans of a corridor whose planes tilt towards its axis by `tilt` [rad] in the mean; the square
+/// of the tilt scatters by `scatter` [rad^2] from scan to scan.
+CrossValidatedInformation after_tilts(double tilt, double scatter, std::optional<double> shared) {
+  RandomStream random(9, "tilts");
+  CrossValidatedInformation fraction;
+  for (double distance = 0.0; distance < 20.0; distance += kStep) {
+    HalvesInformation scan;
+    scan.within.diagonal() << 1.0, 1.0, 1.0, 1.0, 300.0, 300.0;
+    scan.across = scan.within;
+    scan.across(3, 3) =
+        (tilt * tilt + scatter * random.normal()) * scan.within.bottomRightCorner<3, 3>().trace();
+    fraction.add(scan, Eigen::Vector3d(distance, 0.0, 0.0), shared);
   }
+  return fraction;
+}
+
+TEST(CrossValidatedInformation, ASharedTiltDecidesWhatIsFree) {
+  constexpr double kTilt = 0.0075;
+  for (const double shared : {0.006, 0.009}) {
+    EXPECT_EQ(after_tilts(kTilt, 0.0, shared).leaves_direction_free(), kTilt < shared) << shared;
+  }
+}
+
+// The scatter of one scan along plain walls is (3.5 mrad)^2.
+TEST(CrossValidatedInformation, TheScatterOfScansDecidesWhatIsFree) {
+  constexpr double kScatter = 12e-6;
+  EXPECT_TRUE(after_tilts(0.0, kScatter, std::nullopt).leaves_direction_free());
+  EXPECT_TRUE(after_tilts(0.002, kScatter, std::nullopt).leaves_direction_free());
+  EXPECT_FALSE(after_tilts(0.0046, kScatter, std::nullopt).leaves_direction_free());
+}
+
+// However much scans scatter, because a corridor changes, planes that tilt by more are real.
+TEST(CrossValidatedInformation, TiltsBeyondTheLargestSharedOneAreReal) {
+  constexpr double kScatter = 100e-6;
+  EXPECT_TRUE(after_tilts(0.003, kScatter, std::nullopt).leaves_direction_free());
+  EXPECT_FALSE(after_tilts(0.010, kScatter, std::nullopt).leaves_direction_free());
 }
 
 /// Walls on both sides of a corridor that bends about a point 10 m to the left, floor and ceiling,

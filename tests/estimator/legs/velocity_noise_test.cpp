@@ -45,7 +45,8 @@ TEST(VelocityNoise, OfWhiteNoiseIsItsDensityAlongEachAxis) {
   RandomStream random = rng(1, "white");
   const Vector3d sigma(0.4, 0.2, 0.1);
   const VelocityNoise noise = after_walk(
-      600.0, true, [&](double) -> Vector3d { return sigma.cwiseProduct(random.normal3()); }, kNever);
+      600.0, true, [&](double) -> Vector3d { return sigma.cwiseProduct(random.normal3()); },
+      kNever);
   for (int axis = 0; axis < 3; ++axis) {
     const double density = sigma[axis] * sigma[axis] / 200.0;
     EXPECT_NEAR(noise.density()[axis] / density, 1.0, 0.6) << axis;  // 30 windows: 26 %
