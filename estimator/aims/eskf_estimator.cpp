@@ -181,6 +181,7 @@ void EskfEstimator::record_scan(ScanDiagnostics& diagnostics) {
 /// Fuses the prepared points, and learns from the correction how noisy the IMU is.
 void EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
   const Belief predicted = belief_;
+  const MotionVariance by_legs = std::exchange(taken_by_legs_, {});
   const ScanPart part = mapping_ ? ScanPart::kAll : ScanPart::kReal;
   accept(matching(), lidar_update_.update(matching(), points_.to_match(), map_, calibration_, part,
                                           diagnostics, leg_free_.belief()));
@@ -198,8 +199,9 @@ void EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
     // Across the robot only: along it a corridor may leave the velocity free.
     const Eigen::Vector3d across =
         belief_.state.rotation.conjugate() * segment(y, ErrorState::kVelocity);
-    queue_.imu().noise().add_correction(segment(y, ErrorState::kRotation).squaredNorm() / 3.0,
-                                        across.tail<2>().squaredNorm() / 2.0, since_last);
+    queue_.imu().noise().add_correction(
+        segment(y, ErrorState::kRotation).squaredNorm() / 3.0 + by_legs.rotation,
+        across.tail<2>().squaredNorm() / 2.0 + by_legs.velocity, since_last);
   }
   apply_calibration();
   if (measures_legs(config_) && mapping_ && last_leg_ &&

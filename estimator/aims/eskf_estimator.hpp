@@ -11,6 +11,7 @@
 #include "estimator/aims/robot_knowledge.hpp"
 #include "estimator/estimator.hpp"
 #include "estimator/filter/kalman_update.hpp"
+#include "estimator/filter/motion_variance.hpp"
 #include "estimator/filter/measurement_queue.hpp"
 #include "estimator/ground/ground_constraint.hpp"
 #include "estimator/legs/feet_odometry.hpp"
@@ -111,6 +112,7 @@ class EskfEstimator : public Estimator, public MotionSource {
   StrideMeans stride_means_;
   LegVelocity velocity_;                  ///< reported last
   VelocityNoise velocity_noise_;
+  MotionVariance taken_by_legs_;          ///< from the covariance since the last scan
   double leg_innovation_ = kNotComputed;  ///< norm of the last one [m/s]
   int leg_updates_ = 0;
 

@@ -140,7 +140,9 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
       by_feet ? gain_of_feet(belief_.state, scans_measure_scale_of_feet()) : GainMask();
   const bool judged = mask.legs && !lidar_update_.considers_legs() && robot_.judges_legs();
   const std::optional<Belief> before = judged ? std::optional(belief_) : std::nullopt;
+  const MotionVariance predicted = motion_variance(belief_);
   accept(belief_, lidar_update_.fuse_velocity(belief_, measurement, mask));
+  taken_by_legs_ += predicted - motion_variance(belief_);
   if (before) robot_.after_legs(*before, belief_);
   if (!mapping_) return;
   accept(*mapping_, fuse(*mapping_, moved_to(measurement, belief_.state, mapping_->state), mask));

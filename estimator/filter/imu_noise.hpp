@@ -67,8 +67,9 @@ struct WhiteDeviation {
 /// Vibration above half the sampling rate aliases into the samples and does not average out in
 /// their sum: a sample's white part of deviation s adds a random walk of density s sqrt(T). What
 /// share of that part is noise, and not motion that the samples follow (a filtered IMU), shows in
-/// the corrections y of rotation and velocity by scans: in the steady state E[y y^T] = Q, the
-/// covariance that was added since the last scan (Myers and Tapley 1976).
+/// the corrections y of rotation and velocity: in the steady state all updates since the last scan
+/// take what was added, E[y y^T] + sum (P- - P+) = Q, y by the scan and the sum over the updates by
+/// legs (Myers and Tapley 1976).
 class ImuNoise {
  public:
   explicit ImuNoise(double rate_hz);
@@ -76,8 +77,8 @@ class ImuNoise {
   /// Adds the next sample in order of stamp.
   void add(const ImuSample& sample);
 
-  /// Adds a scan's mean square correction per axis, of rotation [rad^2] and velocity [m^2/s^2],
-  /// `duration` [s] after the last scan, to the learned shares of noise.
+  /// Adds a scan's mean square correction per axis, of rotation [rad^2] and velocity [m^2/s^2], and
+  /// what legs took since the last scan, `duration` [s] before, to the learned shares of noise.
   void add_correction(double rotation, double velocity, double duration);
 
   /// Of the sum of the samples.
