@@ -25,6 +25,33 @@ constexpr std::size_t kMaxBytes = std::size_t{256} << 20;
 constexpr Duration kMaxEarly = kSecond / 2;
 constexpr Duration kMaxHold = 60 * kSecond;  ///< of a message with a record time
 constexpr std::size_t kMaxHeldBytes = std::size_t{256} << 20;
+/// Where configured delays differ by more, arrivals move with the stamps: estimators sort what
+/// arrives within 50 ms, and would drop what is later.
+constexpr double kSortedDelay = 0.025;  ///< [s]
+/// Beyond it the sensors have different clocks, and arrive when they do.
+constexpr double kMaxDelay = 2.0;  ///< [s]
+
+using Delays = std::array<Duration, kRoleCount>;
+
+/// The configured delay of each role whose arrivals move; zero where none do.
+Delays moved_arrivals(const RecordingConfig& config, const RecordingPlan& plan) {
+  Delays delays{};
+  std::vector<double> used;
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    const Role role = static_cast<Role>(i);
+    if (role == Role::kTruth || topic_of(plan.setup.topics, role).empty()) continue;
+    // A later record time would be a later stamp.
+    if (plan.stamped_by_record[i]) return {};
+    used.push_back(role == Role::kLidar ? config.lidar_delay
+                   : role == Role::kImu ? config.imu_delay
+                                        : config.leg_delay);
+    delays[i] = from_seconds(used.back());
+  }
+  if (used.empty()) return {};
+  const auto [smallest, largest] = std::ranges::minmax(used);
+  const double spread = largest - smallest;
+  return spread > kSortedDelay && spread < kMaxDelay ? delays : Delays{};
+}
 
 }  // namespace
 
@@ -45,11 +72,17 @@ struct RecordingReader::Impl {
         legs(plan.legs),
         contact_detector(plan.contacts.thresholds) {
     for (const auto& [topic, period] : plan.repeat_period) repeats.emplace(topic, period);
+    // Messages with smaller delays wait for those with the largest, which come back in time.
+    const Delays delays = moved_arrivals(config, plan);
+    const Duration largest = std::ranges::max(delays);
+    for (std::size_t i = 0; i < kRoleCount; ++i) wait[i] = largest - delays[i];
+    plan.arrival_shift -= largest;
     summary.start = plan.start;
   }
 
   Result<void> fetch();
   bool hold(const BagMessage& message, const Channel& channel, const MessageView& view);
+  Time due(const BagMessage& message, const Channel& channel, const MessageView& view);
   void release(Time due, std::vector<Delivery>& out);
   void receive(const BagMessage& message, std::vector<Delivery>& out);
   bool is_repeated(const Channel& channel, const MessageView& view);
@@ -77,6 +110,7 @@ struct RecordingReader::Impl {
   std::optional<BagMessage> next;               ///< read, not yet delivered
   std::multimap<Time, Held> held;               ///< by the time at which they are due
   std::size_t held_bytes = 0;
+  std::array<Duration, kRoleCount> wait{};
   bool started = false;
   Time until = 0;        ///< record time up to which messages have been delivered
   Time record_time = 0;  ///< of the current message
@@ -215,25 +249,31 @@ void RecordingReader::Impl::take(const Channel& channel, const MessageView& view
   if (channel.is(Role::kLegs)) take_legs(channel, view, out);
 }
 
-/// Keeps a message that is recorded before its stamp, as after the recorder's clock was set back or
-/// before it was set: it is due at its stamp and the usual latency.
+/// When a message arrives. One that is recorded before its stamp, as after the recorder's clock was
+/// set back or before it was set, is due at its stamp and the usual latency.
+Time RecordingReader::Impl::due(const BagMessage& message, const Channel& channel,
+                                const MessageView& view) {
+  const Time recorded = message.record_time;
+  const auto* const serves = std::ranges::find(channel.serves, true);
+  if (serves == channel.serves.end()) return recorded;
+  const auto role = static_cast<std::size_t>(serves - channel.serves.begin());
+  const auto stamp = view.time("header.stamp");
+  if (!stamp || !plan.latency[role]) return recorded + wait[role];
+  const Duration early = *stamp + *plan.latency[role] - recorded;
+  const bool unset = recorded < kSecond;
+  if (early < kMaxEarly || (early > kMaxHold && !unset)) return recorded + wait[role];
+  ++counts["recorded_before_their_stamp"];
+  return recorded + early + wait[role];
+}
+
+/// Keeps a message that is not yet due.
 bool RecordingReader::Impl::hold(const BagMessage& message, const Channel& channel,
                                  const MessageView& view) {
-  const auto stamp = view.time("header.stamp");
-  if (!stamp) return false;
-  for (std::size_t i = 0; i < kRoleCount; ++i) {
-    if (!channel.serves[i] || !plan.latency[i]) continue;
-    const Time due = *stamp + *plan.latency[i];
-    const bool unset = message.record_time < kSecond;
-    const Duration early = due - message.record_time;
-    if (early < kMaxEarly || (early > kMaxHold && !unset)) return false;
-    ++counts["recorded_before_their_stamp"];
-    if (held_bytes + message.data.size() > kMaxHeldBytes) return false;
-    held_bytes += message.data.size();
-    held.emplace(due, Held{message.connection, {message.data.begin(), message.data.end()}});
-    return true;
-  }
-  return false;
+  const Time at = due(message, channel, view);
+  if (at <= message.record_time || held_bytes + message.data.size() > kMaxHeldBytes) return false;
+  held_bytes += message.data.size();
+  held.emplace(at, Held{message.connection, {message.data.begin(), message.data.end()}});
+  return true;
 }
 
 /// Takes the messages that are due.
