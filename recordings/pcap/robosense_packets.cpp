@@ -57,8 +57,9 @@ std::string_view model_name(int model) {
 std::optional<Time> date_of(std::span<const std::byte> packet) {
   using namespace std::chrono;
   const auto at = [&](std::size_t i) { return byte_at(packet, kDateAt + i); };
-  const year_month_day date{year(2000 + at(0)), month(static_cast<unsigned>(at(1))),
-                            day(static_cast<unsigned>(at(2)))};
+  // A sensor that was never set counts from month and day 0.
+  const year_month_day date{year(2000 + at(0)), month(static_cast<unsigned>(std::max(1, at(1)))),
+                            day(static_cast<unsigned>(std::max(1, at(2))))};
   if (!date.ok()) return std::nullopt;
   const auto since = sys_days(date) + hours(at(3)) + minutes(at(4)) + seconds(at(5));
   const int milliseconds = big(&packet[kDateAt + 6]), microseconds = big(&packet[kDateAt + 8]);

@@ -25,33 +25,6 @@ constexpr std::size_t kMaxBytes = std::size_t{256} << 20;
 constexpr Duration kMaxEarly = kSecond / 2;
 constexpr Duration kMaxHold = 60 * kSecond;  ///< of a message with a record time
 constexpr std::size_t kMaxHeldBytes = std::size_t{256} << 20;
-/// Where configured delays differ by more, arrivals move with the stamps: estimators sort what
-/// arrives within 50 ms, and would drop what is later.
-constexpr double kSortedDelay = 0.025;  ///< [s]
-/// Beyond it the sensors have different clocks, and arrive when they do.
-constexpr double kMaxDelay = 2.0;  ///< [s]
-
-using Delays = std::array<Duration, kRoleCount>;
-
-/// The configured delay of each role whose arrivals move; zero where none do.
-Delays moved_arrivals(const RecordingConfig& config, const RecordingPlan& plan) {
-  Delays delays{};
-  std::vector<double> used;
-  for (std::size_t i = 0; i < kRoleCount; ++i) {
-    const Role role = static_cast<Role>(i);
-    if (role == Role::kTruth || topic_of(plan.setup.topics, role).empty()) continue;
-    // A later record time would be a later stamp.
-    if (plan.stamped_by_record[i]) return {};
-    used.push_back(role == Role::kLidar ? config.lidar_delay
-                   : role == Role::kImu ? config.imu_delay
-                                        : config.leg_delay);
-    delays[i] = from_seconds(used.back());
-  }
-  if (used.empty()) return {};
-  const auto [smallest, largest] = std::ranges::minmax(used);
-  const double spread = largest - smallest;
-  return spread > kSortedDelay && spread < kMaxDelay ? delays : Delays{};
-}
 
 }  // namespace
 
@@ -72,11 +45,6 @@ struct RecordingReader::Impl {
         legs(plan.legs),
         contact_detector(plan.contacts.thresholds) {
     for (const auto& [topic, period] : plan.repeat_period) repeats.emplace(topic, period);
-    // Messages with smaller delays wait for those with the largest, which come back in time.
-    const Delays delays = moved_arrivals(config, plan);
-    const Duration largest = std::ranges::max(delays);
-    for (std::size_t i = 0; i < kRoleCount; ++i) wait[i] = largest - delays[i];
-    plan.arrival_shift -= largest;
     summary.start = plan.start;
   }
 
@@ -110,7 +78,6 @@ struct RecordingReader::Impl {
   std::optional<BagMessage> next;               ///< read, not yet delivered
   std::multimap<Time, Held> held;               ///< by the time at which they are due
   std::size_t held_bytes = 0;
-  std::array<Duration, kRoleCount> wait{};
   bool started = false;
   Time until = 0;        ///< record time up to which messages have been delivered
   Time record_time = 0;  ///< of the current message
@@ -258,12 +225,12 @@ Time RecordingReader::Impl::due(const BagMessage& message, const Channel& channe
   if (serves == channel.serves.end()) return recorded;
   const auto role = static_cast<std::size_t>(serves - channel.serves.begin());
   const auto stamp = view.time("header.stamp");
-  if (!stamp || !plan.latency[role]) return recorded + wait[role];
+  if (!stamp || !plan.latency[role]) return recorded + plan.wait[role];
   const Duration early = *stamp + *plan.latency[role] - recorded;
   const bool unset = recorded < kSecond;
-  if (early < kMaxEarly || (early > kMaxHold && !unset)) return recorded + wait[role];
+  if (early < kMaxEarly || (early > kMaxHold && !unset)) return recorded + plan.wait[role];
   ++counts["recorded_before_their_stamp"];
-  return recorded + early + wait[role];
+  return recorded + early + plan.wait[role];
 }
 
 /// Keeps a message that is not yet due.

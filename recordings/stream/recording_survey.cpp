@@ -275,6 +275,7 @@ Result<RecordingPlan> RecordingSurvey::decide(const std::filesystem::path& bag,
   }
   decide_repeats(plan);
   decide_stamps(plan);
+  decide_waits(plan);
   decide_imu(plan);
   if (auto legs = decide_legs(plan); !legs) {
     return failure(fmt::format("{}: {}", bag.string(), legs.error().message));

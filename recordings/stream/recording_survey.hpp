@@ -72,6 +72,7 @@ class RecordingSurvey {
   static void keep_new(Seen& each);
   void decide_repeats(RecordingPlan& plan);
   void decide_stamps(RecordingPlan& plan);
+  void decide_waits(RecordingPlan& plan) const;
   void warn_of_clocks(const RecordingPlan& plan, const std::string& reference, Duration latency);
   void warn_of_up(const RecordingSetup& setup);
   std::set<std::string> unstamped_states() const;

@@ -29,7 +29,40 @@ Duration early_latency(std::vector<Duration> latencies) {
   return *at;
 }
 
+/// Where configured delays differ by more, arrivals move with the stamps: estimators sort what
+/// arrives within 50 ms, and would drop what is later.
+constexpr double kSortedDelay = 0.025;  ///< [s]
+/// Beyond it the sensors have different clocks, and arrive when they do.
+constexpr double kMaxDelay = 2.0;  ///< [s]
+
 }  // namespace
+
+double delay_of(const RecordingConfig& config, Role role) {
+  if (role == Role::kTruth) return 0.0;
+  if (role == Role::kLidar) return config.lidar_delay;
+  return role == Role::kImu ? config.imu_delay : config.leg_delay;
+}
+
+/// Messages with smaller delays wait for those with the largest, which then arrive earlier.
+void RecordingSurvey::decide_waits(RecordingPlan& plan) const {
+  std::array<double, kRoleCount> delays{};
+  double smallest = 0.0, largest = 0.0;
+  bool any = false;
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    const Role role = static_cast<Role>(i);
+    if (role == Role::kTruth || topic_of(topics_, role).empty()) continue;
+    if (plan.stamped_by_record[i]) return;  // a later record time would be a later stamp
+    delays[i] = delay_of(config_, role);
+    smallest = any ? std::min(smallest, delays[i]) : delays[i];
+    largest = any ? std::max(largest, delays[i]) : delays[i];
+    any = true;
+  }
+  if (largest - smallest <= kSortedDelay || largest - smallest >= kMaxDelay) return;
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    plan.wait[i] = std::max<Duration>(0, from_seconds(largest - delays[i]));
+  }
+  plan.arrival_shift -= from_seconds(largest);
+}
 
 /// Record time minus stamp of messages without delay. Where stamps go backwards in the order of the
 /// recording, that of the earliest stamps: the recorder's clock was set back later.
@@ -97,7 +130,8 @@ void RecordingSurvey::decide_stamps(RecordingPlan& plan) {
   const auto& lidar = plan.latency[static_cast<std::size_t>(Role::kLidar)];
   const std::optional<Duration> first = imu ? imu : lidar;
   if (!first) return;
-  warn_of_clocks(plan, imu ? topics_.imu : topics_.lidar, *first);
+  warn_of_clocks(plan, imu ? topics_.imu : topics_.lidar,
+                 *first + from_seconds(delay_of(config_, imu ? Role::kImu : Role::kLidar)));
   if (std::abs(*first) < kMaxClockDifference) return;
   plan.arrival_shift = -*first;
   notes_.push_back(
@@ -112,7 +146,7 @@ void RecordingSurvey::warn_of_clocks(const RecordingPlan& plan, const std::strin
     const Role role = static_cast<Role>(i);
     const std::string& topic = topic_of(topics_, role);
     if (!plan.latency[i] || role == Role::kTruth || topic == reference) continue;
-    Duration behind = *plan.latency[i] - latency;
+    Duration behind = *plan.latency[i] + from_seconds(delay_of(config_, role)) - latency;
     // A cloud with the stamp of its start is complete, and sent, a period later.
     if (role == Role::kLidar && plan.cloud.stamp == CloudStamp::kStart) behind -= plan.cloud.period;
     if (std::abs(behind) < kMaxLatencyDifference) continue;
@@ -120,7 +154,8 @@ void RecordingSurvey::warn_of_clocks(const RecordingPlan& plan, const std::strin
                 fmt::format("{}: stamps are {:.3f} s {} those of other topics: set "
                             "recording.{}_delay={:.3f} if their clocks differ",
                             topic, std::abs(to_seconds(behind)), behind > 0 ? "behind" : "ahead of",
-                            role == Role::kLidar ? "lidar" : "leg", -to_seconds(behind)));
+                            role == Role::kLidar ? "lidar" : "leg",
+                            delay_of(config_, role) - to_seconds(behind)));
   }
 }
 
