@@ -124,7 +124,7 @@ void declare_info(Command command, const fs::path& /*scenarios*/) {
   command.flag("--mount", arguments->mount,
                "Compare the rotation of LiDAR odometry (A-LOAM, first 3 min) with\n"
                "the gyro: an inverted or turned extrinsic, an IMU upside down, a\n"
-               "mirrored axis");
+               "mirrored axis, a clock that is off, a gyro in deg/s");
   command.footer("Example:\n  aims info robot.bag --mount");
   command.action([arguments] { return info_command(*arguments); });
 }

@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <csignal>
 #include <exception>
 #include <filesystem>
+#include <new>
 
 #include "bench/cli/commands.hpp"
 #include "bench/cli/exit_code.hpp"
@@ -78,6 +80,8 @@ constexpr const char* kFooter =
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Beyond a limit of the size of files (ulimit -f) writing is then an error, not the end.
+  std::signal(SIGXFSZ, SIG_IGN);
   try {
     const auto scenarios =
         aims::default_scenario_folder(std::filesystem::read_symlink("/proc/self/exe"));
@@ -93,6 +97,9 @@ int main(int argc, char** argv) {
     // A path that cannot be followed, e.g. a loop of links or a name that is too long.
     aims::print_error(fmt::format("aims: {}: {}", error.path1().string(), error.code().message()));
     return aims::kBadInput;
+  } catch (const std::bad_alloc&) {
+    aims::print_error("aims: not enough memory (ulimit -v states the limit of this shell)");
+    return aims::kInternal;
   } catch (const std::exception& error) {
     aims::print_error(fmt::format("aims: internal error: {}", error.what()));
     return aims::kInternal;

@@ -38,6 +38,7 @@ std::vector<PosePair> associate_nearest(const Trajectory& estimate, const Trajec
 
 std::vector<PosePair> associate_interpolated(const Trajectory& estimate, const Trajectory& truth) {
   std::vector<PosePair> pairs;
+  pairs.reserve(estimate.size());
   for (const StampedPose& each : estimate) {
     if (const auto true_pose = pose_at(truth, each.stamp)) {
       pairs.push_back({each.stamp, each.pose, *true_pose});
@@ -119,6 +120,7 @@ bool is_valid(const Pose& pose) {
 
 Trajectory valid_part(const Trajectory& trajectory) {
   Trajectory valid;
+  valid.reserve(trajectory.size());
   for (const StampedPose& each : trajectory) {
     if (!is_valid(each.pose)) continue;
     if (!valid.empty() && each.stamp <= valid.back().stamp) continue;

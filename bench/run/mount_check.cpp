@@ -12,6 +12,7 @@
 
 #include "bench/run/stream.hpp"
 #include "core/lie.hpp"
+#include "recordings/median.hpp"
 
 namespace aims {
 namespace {
@@ -22,6 +23,10 @@ constexpr int kFewest = 5;              ///< intervals
 constexpr double kWrong = 0.3;          ///< residual of a mount that is wrong [-]
 constexpr double kBetter = 0.4;         ///< residual of a better one, of the given one's [-]
 constexpr double kAlike = 1.25;         ///< between residuals of mounts that fit alike [-]
+constexpr double kLeastRate = 0.01;     ///< mean of LiDAR odometry of a body that turns [rad/s]
+constexpr double kOtherUnit = 15.0;     ///< scale beyond noise and vibration; 57 for degrees [-]
+constexpr double kClockOffset = 0.02;   ///< that counts: half of what scans of 10 Hz show [s]
+constexpr Duration kHalfScan = 50 * kMillisecond;
 constexpr Duration kInterval = 500 * kMillisecond;
 constexpr Duration kLongest = 180 * kSecond;
 
@@ -115,6 +120,62 @@ std::vector<RotationPair> rotation_pairs(const Trajectory& poses,
   return pairs;
 }
 
+/// Rates between poses, at the middle of their time; the stamps of poses are `late`.
+std::vector<TurnRate> rates_of(const Trajectory& poses, Duration late) {
+  std::vector<TurnRate> rates;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const Duration step = poses[i].stamp - poses[i - 1].stamp;
+    if (step <= 0 || step > kInterval) continue;
+    const double angle = poses[i - 1].pose.rotation.angularDistance(poses[i].pose.rotation);
+    rates.push_back({poses[i - 1].stamp + step / 2 - late, angle / to_seconds(step)});
+  }
+  return rates;
+}
+
+/// Rates of the mean over 0.1 s around each sample, as scans see them: without vibration.
+std::vector<TurnRate> rates_of(std::span<const ImuSample> samples) {
+  std::vector<TurnRate> rates;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  std::size_t first = 0, last = 0;
+  for (const ImuSample& each : samples) {
+    for (; last < samples.size() && samples[last].stamp <= each.stamp + kHalfScan; ++last) {
+      sum += samples[last].angular_velocity;
+    }
+    for (; samples[first].stamp < each.stamp - kHalfScan; ++first) {
+      sum -= samples[first].angular_velocity;
+    }
+    rates.push_back({each.stamp, sum.norm() / static_cast<double>(last - first)});
+  }
+  return rates;
+}
+
+bool is_wrong_unit(const RateCheck& check) {
+  return check.scale > kOtherUnit || (check.scale > 0.0 && check.scale < 1.0 / kOtherUnit);
+}
+
+std::vector<std::string> words(const RateCheck& check, const RecordingConfig& config) {
+  if (is_wrong_unit(check)) {
+    const bool degrees = check.scale > 1.0;
+    return {fmt::format(
+        "UNIT OF THE GYRO: it turns {:.3g} times as fast as LiDAR odometry: {}", check.scale,
+        degrees ? "it is in deg/s: convert it to rad/s in the driver (of a table: gyro_unit: deg/s)"
+                : "it is converted to rad/s twice")};
+  }
+  if (!check.clock) {
+    return {"clock of the LiDAR: not checked: the turns of the body do not show an offset"};
+  }
+  const double offset = check.clock->seconds;
+  if (std::abs(offset) < kClockOffset) {
+    return {fmt::format("clock of the LiDAR: within {:.0f} ms of the IMU's", 1e3 * kClockOffset)};
+  }
+  return {
+      fmt::format("CLOCK OF THE LIDAR: stamped {:.0f} ms too {} against the IMU (correlation of "
+                  "the turn rates {:.2f})",
+                  1e3 * std::abs(offset), offset > 0.0 ? "late" : "early",
+                  check.clock->correlation),
+      fmt::format("  to try it: --set recording.lidar_delay={:.3f}", config.lidar_delay + offset)};
+}
+
 std::vector<std::string> words(const MountCheck& check, const Pose& T_imu_lidar) {
   if (check.intervals < kFewest) {
     return {
@@ -144,6 +205,19 @@ std::vector<std::string> words(const MountCheck& check, const Pose& T_imu_lidar)
 }
 
 }  // namespace
+
+RateCheck check_rates(const std::vector<TurnRate>& lidar, const std::vector<TurnRate>& gyro) {
+  const auto mean = [](const std::vector<TurnRate>& rates) {
+    double sum = 0.0;
+    for (const TurnRate& each : rates) sum += each.rate;
+    return rates.empty() ? 0.0 : sum / static_cast<double>(rates.size());
+  };
+  RateCheck check;
+  const double turned = mean(lidar);
+  check.scale = turned > kLeastRate ? mean(gyro) / turned : 0.0;
+  check.clock = clock_offset(lidar, gyro);
+  return check;
+}
 
 MountCheck check_mount(std::span<const RotationPair> pairs, const Eigen::Quaterniond& R_imu_lidar) {
   MountCheck check;
@@ -184,19 +258,31 @@ Result<std::vector<std::string>> mount_report(const EstimateConfig& config,
   auto estimators = make_estimators(run, config.estimators, setup.rig);
   if (!estimators) return tl::unexpected(estimators.error());
   std::vector<ImuSample> samples;
+  std::vector<Duration> scan_times;
   const auto next_batch = [&](std::vector<Delivery>& batch) {
     auto more = reader->advance(kStreamBatch, batch);
     for (const Delivery& each : batch) {
       if (const auto* imu = std::get_if<ImuSample>(&each.measurement)) samples.push_back(*imu);
+      if (const auto* scan = std::get_if<LidarScanPtr>(&each.measurement)) {
+        scan_times.push_back((*scan)->end - (*scan)->stamp);
+      }
     }
     return more;
   };
   stream(next_batch, *estimators, 1, [&] { return reader->position() < kLongest; });
   std::ranges::stable_sort(samples, {}, &ImuSample::stamp);
   const Pose& T_imu_lidar = setup.rig.T_body_lidar;
-  const auto pairs = rotation_pairs(estimators->front().estimator().result().trajectory, samples,
-                                    T_imu_lidar.rotation);
-  return words(check_mount(pairs, T_imu_lidar.rotation), T_imu_lidar);
+  const Trajectory& poses = estimators->front().estimator().result().trajectory;
+  // A-LOAM takes scans as rigid: its poses are those of the middle of a scan, stamped at its end.
+  const Duration half_scan = upper_median(scan_times).value_or(0) / 2;
+  const RateCheck rates = check_rates(rates_of(poses, half_scan), rates_of(samples));
+  std::vector<std::string> lines = words(rates, config.recording);
+  if (is_wrong_unit(rates)) return lines;
+  const auto pairs = rotation_pairs(poses, samples, T_imu_lidar.rotation);
+  for (std::string& line : words(check_mount(pairs, T_imu_lidar.rotation), T_imu_lidar)) {
+    lines.push_back(std::move(line));
+  }
+  return lines;
 }
 
 }  // namespace aims

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "bench/run/estimate.hpp"
 #include "core/error.hpp"
+#include "recordings/inspection/clock_offset.hpp"
 
 namespace aims {
 
@@ -34,8 +36,17 @@ struct MountCheck {
 /// differ by it alone fit alike, and the given one stays.
 MountCheck check_mount(std::span<const RotationPair> pairs, const Eigen::Quaterniond& R_imu_lidar);
 
+/// What the turn rates of LiDAR odometry and gyro say of unit and clocks.
+struct RateCheck {
+  double scale = 1.0;  ///< mean rate of the gyro over that of LiDAR odometry [-]; 0: hardly turns
+  std::optional<ClockOffset> clock;  ///< of the LiDAR to the IMU; nothing where it does not show
+};
+
+/// Compares rates of the norm, which no mount changes; each is in order of time.
+RateCheck check_rates(const std::vector<TurnRate>& lidar, const std::vector<TurnRate>& gyro);
+
 /// The check for the first three minutes of a recording, with the rotation of LiDAR odometry
-/// (A-LOAM, which uses no IMU), in words, with the line that corrects the mount. Errors as of
+/// (A-LOAM, which uses no IMU), in words, with the line that corrects mount or clock. Errors as of
 /// `estimate`.
 Result<std::vector<std::string>> mount_report(const EstimateConfig& config,
                                               const EstimateOptions& options);

@@ -19,6 +19,8 @@ namespace {
 constexpr std::size_t kMaxWaiting = 2'000;
 /// Deviation of R^T R from identity up to which a matrix is taken for a rotation, as in files.
 constexpr double kRotationTolerance = 1e-3;
+/// A pose may be stamped so much before or after all measurements [ns].
+constexpr double kStampMargin = 10e9;
 constexpr std::string_view kCallTimeoutKey = "call_timeout";
 
 enum class Event : std::uint8_t { kImu = 1, kLegs = 2, kScan = 3 };
@@ -185,6 +187,7 @@ class PythonEstimator final : public Estimator {
 
   void consume(const Delivery& delivery) override {
     if (result_.failure) return;
+    note_times(delivery);
     std::visit([&](const auto& measurement) { add(delivery.arrival, measurement); },
                delivery.measurement);
     if (batch_.size() >= kMaxWaiting) flush();
@@ -221,6 +224,20 @@ class PythonEstimator final : public Estimator {
       bytes.add_text(text_of(each.value));
     }
     return bytes;
+  }
+
+  void note_times(const Delivery& delivery) {
+    const Time stamp = stamp_of(delivery.measurement);
+    first_ = std::min({first_, stamp, delivery.arrival});
+    last_ = std::max({last_, stamp, delivery.arrival});
+  }
+
+  /// Whether a pose of this stamp can be one of the measurements so far. Others, as of an
+  /// estimator that counts in another unit, would spoil what is written and drawn of all.
+  bool is_measured(Time stamp) const {
+    const auto ns = static_cast<double>(stamp);  // whose differences cannot overflow
+    return ns >= static_cast<double>(first_) - kStampMargin &&
+           ns <= static_cast<double>(last_) + kStampMargin;
   }
 
   void add(Time arrival, const ImuSample& sample) {
@@ -266,6 +283,8 @@ class PythonEstimator final : public Estimator {
     Trajectory& trajectory = result_.trajectory;
     if (!pose) {
       ++result_.counts["pose_not_rigid"];
+    } else if (!is_measured(stamp)) {
+      ++result_.counts["pose_stamp_not_measured"];
     } else if (!trajectory.empty() && stamp <= trajectory.back().stamp) {
       ++result_.counts["pose_stamp_not_increasing"];
     } else {
@@ -295,6 +314,8 @@ class PythonEstimator final : public Estimator {
   bool takes_scans_;
   PythonProcess process_;
   Batch batch_;
+  Time first_ = std::numeric_limits<Time>::max();  ///< of stamps and arrivals so far
+  Time last_ = std::numeric_limits<Time>::min();
   EstimatorResult result_;
   std::vector<Eigen::Vector3f> map_;
 };

@@ -95,6 +95,7 @@ std::string bounded(const std::string& text, std::size_t most) {
 [[noreturn]] void become(pid_t parent, char* const* arguments, char* const* environment,
                          std::span<const int> kept) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  ::setpgid(0, 0);  // its children are ended with it
   if (::getppid() != parent) ::_exit(kNotStarted);
   ::dup2(STDERR_FILENO, STDOUT_FILENO);
   for (const int descriptor : kept) ::fcntl(descriptor, F_SETFD, 0);
@@ -130,9 +131,10 @@ std::string text_of_status(int status) {
     return fmt::format("no Python interpreter '{}'; AIMS_PYTHON names another", interpreter());
   }
   if (WEXITSTATUS(status) == kNoNumpy) {
-    return fmt::format("'{}' has no NumPy; AIMS_PYTHON names an interpreter that has it, e.g. "
-                       "AIMS_PYTHON=/usr/bin/python3 after apt install python3-numpy",
-                       interpreter());
+    return fmt::format(
+        "'{}' has no NumPy; AIMS_PYTHON names an interpreter that has it, e.g. "
+        "AIMS_PYTHON=/usr/bin/python3 after apt install python3-numpy",
+        interpreter());
   }
   return fmt::format("ended by itself with status {}", WEXITSTATUS(status));
 }
@@ -245,7 +247,8 @@ PythonProcess::~PythonProcess() { stop(); }
 void PythonProcess::stop() {
   if (socket_ >= 0) ::close(socket_);
   if (pid_ > 0) {
-    ::kill(pid_, SIGKILL);
+    ::kill(-pid_, SIGKILL);  // the group: Python and its children
+    ::kill(pid_, SIGKILL);   // before it has made one
     while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) continue;
   }
   socket_ = -1;
@@ -276,6 +279,12 @@ Result<void> PythonProcess::start() {
 
 Error PythonProcess::ended() {
   int status = 0;
+  siginfo_t info{};
+  while (pid_ > 0 && ::waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOWAIT) < 0 &&
+         errno == EINTR) {
+    continue;
+  }
+  if (pid_ > 0) ::kill(-pid_, SIGKILL);  // what it has left; the group is its own until it is read
   while (pid_ > 0 && ::waitpid(pid_, &status, 0) < 0 && errno == EINTR) continue;
   pid_ = -1;
   return {text_of_status(status)};

@@ -110,10 +110,10 @@ Result<FileRecord> BagFile::record(std::uint64_t position) const {
   return record;
 }
 
-Result<std::vector<std::byte>> BagFile::data(const FileRecord& record, std::size_t most) const {
-  if (record.data_size > most) {
-    return refuse(record.position, fmt::format("expected at most {} bytes of {}, found {}", most,
-                                               name_of(record.op), record.data_size));
+Result<std::vector<std::byte>> BagFile::data(const FileRecord& record, std::size_t max_size) const {
+  if (record.data_size > max_size) {
+    return refuse(record.position, fmt::format("expected at most {} bytes of {}, found {}",
+                                               max_size, name_of(record.op), record.data_size));
   }
   std::vector<std::byte> bytes(record.data_size);
   if (const auto got = read(record.data_position, bytes); !got) {

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "recordings/legs/contact_detector.hpp"
+#include "recordings/legs/leg_evidence.hpp"
 
 namespace aims {
 namespace {
@@ -21,32 +22,10 @@ constexpr double kMovingRate = 0.05;        ///< [rad/s]
 constexpr Duration kMaxStep = kSecond / 5;  ///< between rows that are differenced
 constexpr double kLeastKnee = 0.4;          ///< bend of a knee, at least [rad]
 constexpr double kKindGap = 0.1;          ///< between the mean angles of two kinds, at least [rad]
-constexpr double kMaxDifference = 1.0;    ///< of two feet that counts, at most [m/s]
 constexpr double kSameAgreement = 1.5;    ///< ratio of mean squares that does not decide
 constexpr double kAgreementFloor = 1e-4;  ///< mean square that does not decide [m^2/s^2]
-constexpr double kLeastLift = -0.004;     ///< of a foot that steps [m]
-constexpr double kSameVelocity = 0.05;    ///< relative difference of velocities
 
-/// Legs by slot, or by entry of the contacts.
-using Legs = std::array<int, kLegCount>;
-
-/// The orders in use come first.
-std::vector<Legs> all_orders(bool pairs_first) {
-  std::vector<Legs> orders = {{0, 1, 2, 3}, {1, 0, 3, 2}, {0, 2, 1, 3}, {1, 3, 0, 2},
-                              {2, 3, 0, 1}, {3, 2, 1, 0}, {2, 0, 3, 1}, {3, 1, 2, 0}};
-  // Joints as pairs of hip and knee before the abductions: left legs first, then right ones.
-  if (pairs_first) std::swap(orders[0], orders[2]);
-  Legs each = {0, 1, 2, 3};
-  do {
-    if (std::ranges::find(orders, each) == orders.end()) orders.push_back(each);
-  } while (std::ranges::next_permutation(each).found);
-  return orders;
-}
-
-/// Indices of the abductions, hips and knees, each in the order of the array.
-using Kinds = std::array<std::array<std::size_t, kLegCount>, 3>;
-
-Result<Kinds> kinds_of(const JointVector& mean) {
+Result<JointKinds> kinds_of(const JointVector& mean) {
   std::array<std::size_t, kJointCount> by_angle{};
   std::iota(by_angle.begin(), by_angle.end(), 0);
   const auto angle = [&mean](std::size_t i) { return mean[static_cast<Eigen::Index>(i)]; };
@@ -62,7 +41,7 @@ Result<Kinds> kinds_of(const JointVector& mean) {
                     "abductions (near 0) and four hips (positive)",
                     fmt::join(angles, ", ")));
   }
-  Kinds kinds{};
+  JointKinds kinds{};
   constexpr std::array<std::size_t, 3> kRank = {1, 2, 0};  // of abduction, hip, knee
   for (std::size_t kind = 0; kind < 3; ++kind) {
     std::copy_n(by_angle.begin() + static_cast<std::ptrdiff_t>(4 * kRank[kind]), 4,
@@ -73,13 +52,13 @@ Result<Kinds> kinds_of(const JointVector& mean) {
 }
 
 /// The slots of joints that are known: slot and leg are the same.
-Kinds kinds_of(const JointOrder& order) {
-  Kinds kinds{};
+JointKinds kinds_of(const JointOrder& order) {
+  JointKinds kinds{};
   for (std::size_t i = 0; i < order.size(); ++i) kinds[i % 3][i / 3] = order[i];
   return kinds;
 }
 
-JointOrder order_of(const Kinds& kinds, const Legs& leg_of_slot) {
+JointOrder order_of(const JointKinds& kinds, const Legs& leg_of_slot) {
   JointOrder order{};
   for (std::size_t slot = 0; slot < kinds[0].size(); ++slot) {
     for (std::size_t kind = 0; kind < 3; ++kind) {
@@ -89,125 +68,29 @@ JointOrder order_of(const Kinds& kinds, const Legs& leg_of_slot) {
   return order;
 }
 
-/// What one row says: velocity of the base by each slot taken as each leg, and contacts by entry.
-struct Evidence {
-  std::array<std::array<Eigen::Vector3d, kLegCount>, kLegCount> velocity;  ///< by slot, by leg
-  std::array<std::array<double, kLegCount>, kLegCount> height;  ///< of the foot in the base [m]
-  std::array<bool, kLegCount> contact{};
-};
-
-/// One assignment, with the mean square difference of feet in contact.
-struct Candidate {
-  Legs leg_of_slot{};
-  Legs leg_of_entry{};
-  double disagreement = 0.0;
-};
-
-/// Whether slot `s` stands in that row.
-bool stands(const Evidence& row, const Candidate& candidate, std::size_t slot) {
-  const auto entry = std::ranges::find(candidate.leg_of_entry, candidate.leg_of_slot[slot]);
-  return row.contact[static_cast<std::size_t>(entry - candidate.leg_of_entry.begin())];
-}
-
-/// How much higher the feet are in contact than without [m]: negative where contacts and legs
-/// match.
-double lift_of(const std::vector<Evidence>& rows, const Candidate& candidate) {
-  double lift = 0.0;
-  for (std::size_t slot = 0; slot < 4; ++slot) {
-    std::array<double, 2> sum{}, count{};
-    for (const Evidence& row : rows) {
-      const std::size_t state = stands(row, candidate, slot) ? 1 : 0;
-      sum[state] += row.height[slot][static_cast<std::size_t>(candidate.leg_of_slot[slot])];
-      ++count[state];
-    }
-    if (count[0] > 0.0 && count[1] > 0.0) lift += 0.25 * (sum[1] / count[1] - sum[0] / count[0]);
-  }
-  return lift;
-}
-
-double disagreement_of(const std::vector<Evidence>& rows, const Candidate& candidate) {
-  double sum = 0.0;
-  std::size_t pairs = 0;
-  for (const Evidence& row : rows) {
-    for (std::size_t a = 0; a < 4; ++a) {
-      if (!stands(row, candidate, a)) continue;
-      const auto leg_a = static_cast<std::size_t>(candidate.leg_of_slot[a]);
-      for (std::size_t b = 0; b < a; ++b) {
-        if (!stands(row, candidate, b)) continue;
-        const auto leg_b = static_cast<std::size_t>(candidate.leg_of_slot[b]);
-        const double apart = (row.velocity[a][leg_a] - row.velocity[b][leg_b]).norm();
-        sum += std::pow(std::min(apart, kMaxDifference), 2);
-        ++pairs;
-      }
-    }
-  }
-  return pairs > 0 ? sum / static_cast<double>(pairs) : 0.0;
-}
-
-/// Mean velocity by the feet in contact, row by row.
-std::vector<Eigen::Vector3d> velocities(const std::vector<Evidence>& rows,
-                                        const Candidate& candidate) {
-  std::vector<Eigen::Vector3d> result;
-  for (const Evidence& row : rows) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    int feet = 0;
-    for (std::size_t slot = 0; slot < 4; ++slot) {
-      if (!stands(row, candidate, slot)) continue;
-      sum += row.velocity[slot][static_cast<std::size_t>(candidate.leg_of_slot[slot])];
-      ++feet;
-    }
-    result.push_back(feet > 0 ? Eigen::Vector3d(sum / feet) : Eigen::Vector3d::Zero());
-  }
-  return result;
-}
-
-bool same_velocity(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b) {
-  double apart = 0.0, speed = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    apart += (a[i] - b[i]).squaredNorm();
-    speed += a[i].squaredNorm();
-  }
-  return apart <= std::pow(kSameVelocity, 2) * speed;
-}
-
 std::string names_of(const Legs& legs) {
   std::vector<std::string_view> names;
   for (const int leg : legs) names.push_back(kLegNames[static_cast<std::size_t>(leg)]);
   return fmt::format("{}", fmt::join(names, " "));
 }
 
-std::vector<Candidate> candidates_of(const std::vector<Evidence>& rows, bool joints_known,
-                                     bool feet_known, bool pairs_first) {
-  const std::vector<Legs> orders = all_orders(pairs_first);
-  const std::vector<Legs> feet = all_orders(false);
-  std::vector<Candidate> candidates;
-  std::vector<double> lifts;
-  for (const Legs& slots : joints_known ? std::vector<Legs>{{0, 1, 2, 3}} : orders) {
-    for (const Legs& entries : feet_known ? std::vector<Legs>{{0, 1, 2, 3}} : feet) {
-      candidates.push_back({slots, entries, 0.0});
-      candidates.back().disagreement = disagreement_of(rows, candidates.back());
-      lifts.push_back(lift_of(rows, candidates.back()));
-    }
-  }
-  // Feet of a trot that swing together agree as well as those that stand, but they are higher.
-  const double lowest = std::ranges::min(lifts);
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (lowest < kLeastLift && lifts[i] > 0.5 * lowest) {
-      candidates[i].disagreement += kMaxDifference * kMaxDifference;
-    }
-  }
-  return candidates;
+/// The order of the legs in the joints and in the feet, of those that were decided.
+std::string text_of(const LegCandidate& candidate, bool joints, bool feet) {
+  std::vector<std::string> parts;
+  if (joints) parts.push_back("legs in the order " + names_of(candidate.leg_of_slot));
+  if (feet) parts.push_back("feet in the order " + names_of(candidate.leg_of_entry));
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 /// The first of those that the data do not tell apart, and their number.
-Result<std::pair<Candidate, std::size_t>> chosen(const std::vector<Evidence>& rows,
-                                                 const std::vector<Candidate>& candidates) {
-  const double best = std::ranges::min(candidates, {}, &Candidate::disagreement).disagreement;
+Result<std::pair<LegCandidate, std::size_t>> chosen(const std::vector<LegEvidence>& rows,
+                                                    const std::vector<LegCandidate>& candidates) {
+  const double best = std::ranges::min(candidates, {}, &LegCandidate::disagreement).disagreement;
   const double limit = kSameAgreement * best + kAgreementFloor;
-  const Candidate* first = nullptr;
+  const LegCandidate* first = nullptr;
   std::size_t same = 0;
   std::vector<Eigen::Vector3d> velocity;
-  for (const Candidate& each : candidates) {
+  for (const LegCandidate& each : candidates) {
     if (each.disagreement > limit) continue;
     ++same;
     if (first == nullptr) {
@@ -269,67 +152,75 @@ std::vector<LegOrderFinder::Row> LegOrderFinder::with_rates() const {
   return rows;
 }
 
+/// What each of at most `kComparedRows` rows says in which the contacts are as before and after.
+std::vector<LegEvidence> LegOrderFinder::evidence(const JointKinds& kinds,
+                                                  const LegGeometry& geometry,
+                                                  const Eigen::Quaterniond& R_body_base) const {
+  std::vector<FootLoads> loads;
+  for (const Row& row : rows_) loads.push_back(row.loads);
+  std::array<ContactThreshold, kLegCount> thresholds;
+  thresholds.fill({0.5, 0.5});
+  if (const auto learned = learn_contact_thresholds(loads)) thresholds = *learned;
+  const std::vector<Row> moving = with_rates();
+  const std::size_t stride = std::max<std::size_t>(1, moving.size() / kComparedRows);
+  std::vector<LegEvidence> found;
+  std::array<bool, kLegCount> before{};
+  ContactDetector detector(thresholds);
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    const auto contact = detector.detect(moving[i].loads);
+    const bool steady = std::exchange(before, contact) == contact &&
+                        (i + 1 == moving.size() ||
+                         ContactDetector(detector).detect(moving[i + 1].loads) == contact);
+    if (!steady || i % stride != 0) continue;
+    found.push_back(evidence_of(moving[i], kinds, geometry, R_body_base));
+    found.back().contact = contact;
+  }
+  if (found.size() < kMinRows) found.clear();
+  return found;
+}
+
+/// Without contacts.
+LegEvidence LegOrderFinder::evidence_of(const Row& row, const JointKinds& kinds,
+                                        const LegGeometry& geometry,
+                                        const Eigen::Quaterniond& R_body_base) {
+  LegEvidence evidence;
+  const Eigen::Vector3d turning = R_body_base.conjugate() * row.turning;
+  for (std::size_t slot = 0; slot < kLegCount; ++slot) {
+    const auto at = [&](const JointVector& v) {
+      return Eigen::Vector3d(v[static_cast<Eigen::Index>(kinds[0][slot])],
+                             v[static_cast<Eigen::Index>(kinds[1][slot])],
+                             v[static_cast<Eigen::Index>(kinds[2][slot])]);
+    };
+    for (int leg = 0; leg < kLegCount; ++leg) {
+      const auto column = static_cast<std::size_t>(leg);
+      evidence.velocity[slot][column] =
+          velocity_from_foot(leg, {at(row.angles), at(row.rates), turning}, geometry);
+      evidence.height[slot][column] = foot_in_base(leg, at(row.angles), geometry).z();
+    }
+  }
+  return evidence;
+}
+
 Result<LegOrder> LegOrderFinder::find(const LegGeometry& geometry,
                                       const Eigen::Quaterniond& R_body_base,
                                       const std::optional<JointOrder>& joints,
                                       bool feet_named) const {
   if (rows_.empty()) return failure("no joints with contacts");
   JointVector mean = JointVector::Zero();
-  std::vector<FootLoads> loads;
-  for (const Row& row : rows_) {
-    mean += row.angles / static_cast<double>(rows_.size());
-    loads.push_back(row.loads);
-  }
-  const auto kinds = joints ? Result<Kinds>(kinds_of(*joints)) : kinds_of(mean);
+  for (const Row& row : rows_) mean += row.angles / static_cast<double>(rows_.size());
+  const auto kinds = joints ? Result<JointKinds>(kinds_of(*joints)) : kinds_of(mean);
   if (!kinds) return tl::unexpected(kinds.error());
   const bool pairs_first = (*kinds)[0][0] == 8 && (*kinds)[2][0] - (*kinds)[1][0] == 1;
-
-  std::array<ContactThreshold, kLegCount> thresholds;
-  thresholds.fill({0.5, 0.5});
-  if (const auto learned = learn_contact_thresholds(loads)) thresholds = *learned;
-  const std::vector<Row> moving = with_rates();
-  const std::size_t stride = std::max<std::size_t>(1, moving.size() / kComparedRows);
-  std::vector<Evidence> rows;
-  std::array<bool, kLegCount> before{};
-  ContactDetector detector(thresholds);
-  for (std::size_t i = 0; i < moving.size(); ++i) {
-    const Row& row = moving[i];
-    Evidence evidence;
-    evidence.contact = detector.detect(row.loads);
-    const bool steady = std::exchange(before, evidence.contact) == evidence.contact &&
-                        (i + 1 == moving.size() ||
-                         ContactDetector(detector).detect(moving[i + 1].loads) == evidence.contact);
-    if (!steady || i % stride != 0) continue;
-    const Eigen::Vector3d turning = R_body_base.conjugate() * row.turning;
-    for (std::size_t slot = 0; slot < 4; ++slot) {
-      const auto at = [&](const JointVector& v) {
-        return Eigen::Vector3d(v[static_cast<Eigen::Index>((*kinds)[0][slot])],
-                               v[static_cast<Eigen::Index>((*kinds)[1][slot])],
-                               v[static_cast<Eigen::Index>((*kinds)[2][slot])]);
-      };
-      for (int leg = 0; leg < kLegCount; ++leg) {
-        evidence.velocity[slot][static_cast<std::size_t>(leg)] =
-            velocity_from_foot(leg, {at(row.angles), at(row.rates), turning}, geometry);
-        evidence.height[slot][static_cast<std::size_t>(leg)] =
-            foot_in_base(leg, at(row.angles), geometry).z();
-      }
-    }
-    rows.push_back(evidence);
-  }
-  if (rows.size() < kMinRows) rows.clear();
-
-  const auto found = chosen(rows, candidates_of(rows, joints.has_value(), feet_named, pairs_first));
+  const std::vector<LegEvidence> rows = evidence(*kinds, geometry, R_body_base);
+  const auto found =
+      chosen(rows, leg_candidates(rows, joints.has_value(), feet_named, pairs_first));
   if (!found) return tl::unexpected(found.error());
   const auto& [candidate, same] = *found;
   LegOrder order;
   order.joints = order_of(*kinds, candidate.leg_of_slot);
   order.feet = candidate.leg_of_entry;
   order.feet_differ = order.feet != Legs{0, 1, 2, 3};
-  if (!joints) order.text = fmt::format("legs in the order {}", names_of(candidate.leg_of_slot));
-  if (!feet_named) {
-    order.text += fmt::format("{}feet in the order {}", order.text.empty() ? "" : ", ",
-                              names_of(candidate.leg_of_entry));
-  }
+  order.text = text_of(candidate, !joints, !feet_named);
   if (rows.empty()) {
     order.text += " (assumed: the robot does not walk)";
   } else if (same > 1) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/leg_kinematics.hpp"
 #include "core/measurements.hpp"
+#include "recordings/legs/leg_evidence.hpp"
 #include "recordings/legs/leg_messages.hpp"
 
 namespace aims {
@@ -20,6 +22,9 @@ struct LegOrder {
   std::string text;          ///< "FL hip 0, thigh 1, ...": what was decided, and how surely
   bool feet_differ = false;  ///< from FL, FR, RL, RR
 };
+
+/// Indices of the abductions, hips and knees, each in the order of the array.
+using JointKinds = std::array<std::array<std::size_t, kLegCount>, 3>;
 
 /// Finds the order from the motion: mean angles tell abduction, hip and knee of Unitree's
 /// convention; of the orders of the legs that one is taken in which the feet in contact agree best
@@ -48,6 +53,11 @@ class LegOrderFinder {
     FootLoads loads{};
   };
   std::vector<Row> with_rates() const;
+  std::vector<LegEvidence> evidence(const JointKinds& kinds, const LegGeometry& geometry,
+                                    const Eigen::Quaterniond& R_body_base) const;
+  static LegEvidence evidence_of(const Row& row, const JointKinds& kinds,
+                                 const LegGeometry& geometry,
+                                 const Eigen::Quaterniond& R_body_base);
 
   Eigen::Vector3d turning_ = Eigen::Vector3d::Zero();  ///< in the IMU's axes [rad/s]
   std::optional<FootLoads> loads_;

@@ -87,6 +87,29 @@ std::optional<Pose> transform_of(const Scalars& scalars, std::string_view key) {
   return Pose{Eigen::Quaterniond(R).normalized(), 1e-3 * Eigen::Vector3d(m[3], m[7], m[11])};
 }
 
+bool is_read(std::string_view profile) {
+  constexpr auto kProfiles = std::to_array<std::string_view>(
+      {"LEGACY", "RNG19_RFL8_SIG16_NIR16", "RNG19_RFL8_SIG16_NIR16_DUAL", "RNG15_RFL8_NIR8"});
+  return std::ranges::find(kProfiles, profile) != kProfiles.end();
+}
+
+/// Columns of a turn, and of the part of it that is sent.
+void set_columns(const Scalars& scalars, OusterMetadata& metadata) {
+  metadata.columns_per_frame = count_of(scalars, "columns_per_frame", 0);
+  if (const std::string* mode = find(scalars, "lidar_mode");
+      mode != nullptr && metadata.columns_per_frame == 0) {
+    std::from_chars(mode->data(), mode->data() + mode->size(), metadata.columns_per_frame);
+  }
+  metadata.window_columns = metadata.columns_per_frame;
+  const std::vector<double> window = numbers_of(scalars, "column_window");
+  if (window.size() == 2) {
+    const double columns = window[1] - window[0] + 1.0;
+    const double turn = columns > 0.0 ? 0.0 : metadata.columns_per_frame;
+    metadata.window_columns = static_cast<int>(
+        std::clamp(columns + turn, 1.0, static_cast<double>(metadata.columns_per_frame)));
+  }
+}
+
 }  // namespace
 
 const OusterScans::Layout& OusterScans::layout() const {
@@ -115,9 +138,7 @@ Result<OusterMetadata> parse_ouster_metadata(const std::string& text, const std:
   OusterMetadata metadata;
   const std::string* profile = find(*scalars, "udp_profile_lidar");
   metadata.profile = profile == nullptr || profile->empty() ? "LEGACY" : *profile;
-  constexpr auto kProfiles = std::to_array<std::string_view>(
-      {"LEGACY", "RNG19_RFL8_SIG16_NIR16", "RNG19_RFL8_SIG16_NIR16_DUAL", "RNG15_RFL8_NIR8"});
-  if (std::ranges::find(kProfiles, metadata.profile) == kProfiles.end()) {
+  if (!is_read(metadata.profile)) {
     return refuse("udp_profile_lidar",
                   fmt::format("LEGACY, RNG19_RFL8_SIG16_NIR16, RNG19_RFL8_SIG16_NIR16_DUAL or "
                               "RNG15_RFL8_NIR8, found '{}'",
@@ -133,19 +154,7 @@ Result<OusterMetadata> parse_ouster_metadata(const std::string& text, const std:
   }
   const std::string* origin = find(*scalars, "lidar_origin_to_beam_origin_mm");
   metadata.origin_to_beam = 1e-3 * (origin ? parse_number(*origin).value_or(0.0) : 0.0);
-  metadata.columns_per_frame = count_of(*scalars, "columns_per_frame", 0);
-  if (const std::string* mode = find(*scalars, "lidar_mode");
-      mode != nullptr && metadata.columns_per_frame == 0) {
-    std::from_chars(mode->data(), mode->data() + mode->size(), metadata.columns_per_frame);
-  }
-  metadata.window_columns = metadata.columns_per_frame;
-  const std::vector<double> window = numbers_of(*scalars, "column_window");
-  if (window.size() == 2) {
-    const double columns = window[1] - window[0] + 1.0;
-    const double turn = columns > 0.0 ? 0.0 : metadata.columns_per_frame;
-    metadata.window_columns = static_cast<int>(
-        std::clamp(columns + turn, 1.0, static_cast<double>(metadata.columns_per_frame)));
-  }
+  set_columns(*scalars, metadata);
   metadata.columns_per_packet = count_of(*scalars, "columns_per_packet", 16);
   if (metadata.columns_per_frame < 1 || metadata.columns_per_packet < 1) {
     return refuse("columns_per_frame, columns_per_packet", "numbers above 0");

@@ -4,10 +4,30 @@
 #include <utility>
 
 #include "recordings/pcap/hesai_packets.hpp"
+#include "recordings/pcap/robosense_packets.hpp"
 #include "recordings/pcap/velodyne_packets.hpp"
 
 namespace aims {
 namespace {
+
+using Scan = Result<std::optional<LidarScan>>;
+
+/// The scan that a packet ends; nothing for packets that are no points.
+Scan scan_of(VelodyneScans& scans, const UdpPacket& packet) {
+  if (packet.payload.size() != kVelodynePacketSize) return std::nullopt;
+  return scans.add(packet.payload, packet.time);
+}
+
+Scan scan_of(HesaiScans& scans, const UdpPacket& packet) {
+  if (!is_hesai_packet(packet.payload)) return std::nullopt;
+  return scans.add(packet.payload);
+}
+
+Scan scan_of(RobosenseScans& scans, const UdpPacket& packet) {
+  if (is_robosense_information(packet.payload)) scans.inform(packet.payload);
+  if (!is_robosense_packet(packet.payload)) return std::nullopt;
+  return scans.add(packet.payload);
+}
 
 std::optional<PacketMessage> cloud_of(const std::optional<LidarScan>& scan,
                                       const std::string& frame) {
@@ -15,13 +35,14 @@ std::optional<PacketMessage> cloud_of(const std::optional<LidarScan>& scan,
   return PacketMessage{kScan, cloud_message({0, scan->stamp, frame}, *scan)};
 }
 
-class VelodyneDecoder final : public PacketDecoder {
+/// Of a sensor whose packets become scans alone.
+template <class Scans>
+class ScanDecoder final : public PacketDecoder {
  public:
-  explicit VelodyneDecoder(std::string frame) : frame_(std::move(frame)) {}
+  explicit ScanDecoder(std::string frame) : frame_(std::move(frame)) {}
 
   Result<std::optional<PacketMessage>> add(const UdpPacket& packet) override {
-    if (packet.payload.size() != kVelodynePacketSize) return std::nullopt;
-    const auto scan = scans_.add(packet.payload, packet.time);
+    const auto scan = scan_of(scans_, packet);
     if (!scan) return tl::unexpected(scan.error());
     return cloud_of(*scan, frame_);
   }
@@ -30,25 +51,7 @@ class VelodyneDecoder final : public PacketDecoder {
 
  private:
   std::string frame_;
-  VelodyneScans scans_;
-};
-
-class HesaiDecoder final : public PacketDecoder {
- public:
-  explicit HesaiDecoder(std::string frame) : frame_(std::move(frame)) {}
-
-  Result<std::optional<PacketMessage>> add(const UdpPacket& packet) override {
-    if (!is_hesai_packet(packet.payload)) return std::nullopt;
-    const auto scan = scans_.add(packet.payload);
-    if (!scan) return tl::unexpected(scan.error());
-    return cloud_of(*scan, frame_);
-  }
-
-  std::optional<PacketMessage> finish() override { return cloud_of(scans_.finish(), frame_); }
-
- private:
-  std::string frame_;
-  HesaiScans scans_;
+  Scans scans_;
 };
 
 class OusterDecoder final : public PacketDecoder {
@@ -83,11 +86,15 @@ class OusterDecoder final : public PacketDecoder {
 }  // namespace
 
 std::unique_ptr<PacketDecoder> velodyne_decoder(std::string frame) {
-  return std::make_unique<VelodyneDecoder>(std::move(frame));
+  return std::make_unique<ScanDecoder<VelodyneScans>>(std::move(frame));
 }
 
 std::unique_ptr<PacketDecoder> hesai_decoder(std::string frame) {
-  return std::make_unique<HesaiDecoder>(std::move(frame));
+  return std::make_unique<ScanDecoder<HesaiScans>>(std::move(frame));
+}
+
+std::unique_ptr<PacketDecoder> robosense_decoder(std::string frame) {
+  return std::make_unique<ScanDecoder<RobosenseScans>>(std::move(frame));
 }
 
 std::unique_ptr<PacketDecoder> ouster_decoder(const OusterMetadata& metadata, bool with_frames) {

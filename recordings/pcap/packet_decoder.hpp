@@ -38,6 +38,9 @@ std::unique_ptr<PacketDecoder> velodyne_decoder(std::string frame);
 /// Of a Hesai XT32 or XT16.
 std::unique_ptr<PacketDecoder> hesai_decoder(std::string frame);
 
+/// Of a RoboSense RS-LiDAR-16.
+std::unique_ptr<PacketDecoder> robosense_decoder(std::string frame);
+
 /// Of an Ouster; `with_frames`: the first message holds its frames.
 std::unique_ptr<PacketDecoder> ouster_decoder(const OusterMetadata& metadata, bool with_frames);
 

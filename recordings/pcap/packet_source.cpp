@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <deque>
 #include <map>
 #include <optional>
@@ -14,35 +13,11 @@
 #include "recordings/messages/message_decoder.hpp"
 #include "recordings/messages/message_types.hpp"
 #include "recordings/pcap/packet_decoder.hpp"
+#include "recordings/pcap/packet_types.hpp"
 #include "recordings/pcap/recorded_metadata.hpp"
 
 namespace aims {
 namespace {
-
-enum class Maker { kVelodyne, kHesai, kOuster };
-
-/// How a message type holds packets.
-struct PacketType {
-  std::string_view type;
-  Maker maker;
-  std::string_view packets;  ///< field of the array; empty: the message is one packet
-  std::string_view data;
-  std::string_view size;  ///< field of the used size of `data`; empty: all of it
-};
-
-constexpr auto kTypes = std::to_array<PacketType>({
-    {"velodyne_msgs/VelodyneScan", Maker::kVelodyne, "packets", "data", ""},
-    {"pandar_msgs/PandarScan", Maker::kHesai, "packets", "data", "size"},
-    {"hesai_lidar/PandarScan", Maker::kHesai, "packets", "data", "size"},
-    {"hesai_ros_driver/UdpFrame", Maker::kHesai, "packets", "data", "size"},
-    {"ouster_ros/PacketMsg", Maker::kOuster, "", "buf", ""},
-    {"ouster_sensor_msgs/PacketMsg", Maker::kOuster, "", "buf", ""},
-});
-
-const PacketType* packet_type_of(std::string_view type) {
-  const auto found = std::ranges::find(kTypes, type, &PacketType::type);
-  return found == kTypes.end() ? nullptr : &*found;
-}
 
 constexpr std::string_view kFramesTopic = "/tf_static";
 
@@ -53,7 +28,9 @@ struct Stream {
   MessageDecoder message;
   std::shared_ptr<PacketDecoder> packets;  ///< that of an Ouster serves both of its topics
   PacketKind kind = kScan;
-  std::uint32_t made = 0;  ///< connection of what the packets become
+  std::uint32_t made = 0;                ///< connection of what the packets become
+  std::optional<std::uint32_t> informs;  ///< the stream of points that these packets describe
+  std::vector<std::byte> early;          ///< the last packet of information before the points
 };
 
 /// A recording with what its packets become.
@@ -66,6 +43,7 @@ class PacketSource final : public MessageSource {
     for (const BagConnection& each : connections_) recorded_.insert(each.id);
     const std::vector<BagConnection> recorded = connections_;
     for (const BagConnection& each : recorded) add_stream(each);
+    attach_information();
     if (ouster_) frames_ = add_connection(recorded.front(), kFramesTopic, transforms_type());
     for (const BagConnection& each : connections_) wanted_.insert(each.id);
     restart();
@@ -159,11 +137,28 @@ class PacketSource final : public MessageSource {
     stream.message = std::move(*decoder);
     // An Ouster has a topic each for LiDAR and IMU, told apart by the size of their packets.
     const bool imu =
-        type->maker == Maker::kOuster && packets.topic.find("imu") != std::string::npos;
+        type->maker == LidarMaker::kOuster && packets.topic.find("imu") != std::string::npos;
+    if (type->maker == LidarMaker::kRobosense && topic_of_points(packets.topic) != packets.topic) {
+      information_.emplace(packets.id, std::move(stream));
+      return;
+    }
     stream.kind = imu ? kImu : kScan;
     stream.made = add_connection(packets, packets.topic + (imu ? "/imu" : "/points"),
                                  imu ? imu_type() : point_cloud_type());
     streams_.emplace(packets.id, std::move(stream));
+  }
+
+  /// Makes the packets of information go to the decoder of their points.
+  void attach_information() {
+    for (auto& [id, stream] : information_) {
+      const std::string points = topic_of_points(connection(id)->topic);
+      const auto found = std::ranges::find_if(
+          streams_, [&](const auto& each) { return connection(each.first)->topic == points; });
+      if (found == streams_.end()) continue;
+      stream.made = found->second.made;
+      stream.informs = found->first;
+      streams_.emplace(id, std::move(stream));
+    }
   }
 
   /// Decoders as at the start of the recording.
@@ -175,7 +170,8 @@ class PacketSource final : public MessageSource {
     const std::shared_ptr<PacketDecoder> ouster =
         ouster_ ? std::shared_ptr<PacketDecoder>(ouster_decoder(*ouster_, false)) : nullptr;
     for (auto& [id, stream] : streams_) {
-      stream.packets = stream.type->maker == Maker::kOuster ? ouster : nullptr;
+      stream.packets = stream.type->maker == LidarMaker::kOuster ? ouster : nullptr;
+      stream.early.clear();
     }
     if (ouster_)
       made_.push_back({frames_, summary().start, ouster_frames(*ouster_, summary().start)});
@@ -198,6 +194,22 @@ class PacketSource final : public MessageSource {
     }
   }
 
+  static std::shared_ptr<PacketDecoder> decoder_of(const Stream& stream) {
+    const std::string frame = stream.frame.empty() ? "lidar" : stream.frame;
+    if (stream.type->maker == LidarMaker::kVelodyne) return velodyne_decoder(frame);
+    if (stream.type->maker == LidarMaker::kHesai) return hesai_decoder(frame);
+    auto decoder = robosense_decoder(frame);
+    static_cast<void>(decoder->add({0, stream.early, 0}));
+    return decoder;
+  }
+
+  /// Packets of information complete no scan.
+  static Result<void> inform(Stream& points, std::span<const std::byte> payload) {
+    if (points.packets) static_cast<void>(points.packets->add({0, payload, 0}));
+    if (!points.packets) points.early.assign(payload.begin(), payload.end());
+    return {};
+  }
+
   Result<void> add(Stream& stream, const MessageView& packet, Time record_time, Time stamp) {
     auto payload = packet.bytes(stream.type->data);
     if (!payload) return {};
@@ -205,11 +217,8 @@ class PacketSource final : public MessageSource {
     if (size && *size >= 0.0 && *size < static_cast<double>(payload->size())) {
       payload = payload->first(static_cast<std::size_t>(*size));
     }
-    if (!stream.packets) {
-      const std::string frame = stream.frame.empty() ? "lidar" : stream.frame;
-      stream.packets =
-          stream.type->maker == Maker::kHesai ? hesai_decoder(frame) : velodyne_decoder(frame);
-    }
+    if (stream.informs) return inform(streams_.at(*stream.informs), *payload);
+    if (!stream.packets) stream.packets = decoder_of(stream);
     auto made = stream.packets->add({stamp, *payload, 0});
     if (!made) return tl::unexpected(made.error());
     keep(stream, std::move(*made), record_time);
@@ -253,6 +262,7 @@ class PacketSource final : public MessageSource {
   std::set<std::uint32_t> recorded_;         ///< connections of the recording itself
   std::set<std::uint32_t> wanted_;           ///< connections that are given
   std::map<std::uint32_t, Stream> streams_;  ///< by connection
+  std::map<std::uint32_t, Stream> information_;
   std::uint32_t frames_ = 0;
   std::deque<Made> made_;
   std::optional<Made> lent_;  ///< that the caller has
@@ -269,7 +279,7 @@ Result<void> decode_packets(std::unique_ptr<MessageSource>& source) {
     const PacketType* type = packet_type_of(each.type);
     if (type == nullptr || each.messages == 0) continue;
     packets = true;
-    if (type->maker != Maker::kOuster || ouster) continue;
+    if (type->maker != LidarMaker::kOuster || ouster) continue;
     auto metadata = recorded_ouster_metadata(*source, each.topic);
     if (!metadata) return tl::unexpected(metadata.error());
     ouster = std::move(*metadata);

@@ -13,6 +13,7 @@
 #include "recordings/pcap/hesai_packets.hpp"
 #include "recordings/pcap/ouster_packets.hpp"
 #include "recordings/pcap/packet_decoder.hpp"
+#include "recordings/pcap/robosense_packets.hpp"
 #include "recordings/pcap/udp_packets.hpp"
 
 namespace aims {
@@ -26,14 +27,15 @@ struct PcapReader::Impl {
   UdpPackets packets;
   std::optional<OusterMetadata> ouster;
   bool recover = false;
-  bool hesai = false;  ///< by the first packet that tells
+  enum class Maker { kVelodyne, kHesai, kRobosense } maker = Maker::kVelodyne;  ///< by its packets
   std::unique_ptr<PacketDecoder> decoder = {};
   Time time = 0;  ///< of the last packet; those of a capture may be out of order
   PacketMessage message = {};
   std::map<std::size_t, std::size_t> sizes = {};  ///< number of payloads by size [bytes]
-  std::string_view maker = {};                    ///< whose packets they look like
 
   void note_payload(std::span<const std::byte> payload);
+  void recognize(std::span<const std::byte> payload);
+  std::unique_ptr<PacketDecoder> new_decoder() const;
   std::size_t packets_seen() const {
     std::size_t sum = 0;
     for (const auto& [size, count] : sizes) sum += count;
@@ -42,20 +44,27 @@ struct PcapReader::Impl {
   std::string found() const;
 };
 
-/// Recognizes packets that are not read, by their first bytes.
 void PcapReader::Impl::note_payload(std::span<const std::byte> payload) {
   if (sizes.size() < 100) ++sizes[payload.size()];
-  if (payload.size() < 400) return;
-  const auto begins = [&](std::uint8_t a, std::uint8_t b) {
-    return payload[0] == std::byte{a} && payload[1] == std::byte{b};
-  };
-  if (begins(0x55, 0xaa))
-    maker = "packets of a RoboSense, which are not read: convert them by its driver";
+}
+
+/// Changes to the decoder of the first packet that tells whose it is.
+void PcapReader::Impl::recognize(std::span<const std::byte> payload) {
+  if (ouster || maker != Maker::kVelodyne) return;
+  if (is_hesai_packet(payload)) maker = Maker::kHesai;
+  if (is_robosense_packet(payload) || is_robosense_information(payload)) maker = Maker::kRobosense;
+  if (maker != Maker::kVelodyne) decoder = new_decoder();
+}
+
+std::unique_ptr<PacketDecoder> PcapReader::Impl::new_decoder() const {
+  if (ouster) return ouster_decoder(*ouster, true);
+  if (maker == Maker::kHesai) return hesai_decoder("hesai_lidar");
+  if (maker == Maker::kRobosense) return robosense_decoder("rslidar");
+  return velodyne_decoder("velodyne");
 }
 
 /// What was found instead of scans.
 std::string PcapReader::Impl::found() const {
-  if (!maker.empty()) return std::string(maker);
   std::string text;
   for (const auto& [size, count] : sizes) {
     if (count * 20 < packets_seen()) continue;
@@ -97,9 +106,9 @@ Result<PcapReader> PcapReader::open(const fs::path& file, BagOpenOptions options
       0, ouster ? fmt::format("expected complete scans of an Ouster, as the metadata beside it "
                               "describe ({} bytes a packet), found none: {}",
                               OusterScans(*reader.impl_->ouster).lidar_packet_size(), found)
-                : fmt::format("expected complete scans of a Velodyne VLP-16 (1206 bytes a packet) "
-                              "or a Hesai XT32 or XT16, found none: {}; for an Ouster its metadata "
-                              "is expected beside it, as "
+                : fmt::format("expected complete scans of a Velodyne VLP-16 (1206 bytes a "
+                              "packet), a Hesai XT32 or XT16, or a RoboSense RS-LiDAR-16, found "
+                              "none: {}; for an Ouster its metadata is expected beside it, as "
                               "NAME.json",
                               found));
 }
@@ -122,10 +131,7 @@ Result<std::optional<KindSource::Made>> PcapReader::make() {
     }
     pcap.note_payload((*packet)->payload);
     const UdpPacket& each = **packet;
-    if (!pcap.ouster && !pcap.hesai && is_hesai_packet(each.payload)) {
-      pcap.hesai = true;
-      pcap.decoder = hesai_decoder("hesai_lidar");
-    }
+    pcap.recognize(each.payload);
     auto completed = pcap.decoder->add(each);
     if (!completed) return pcap.packets.file().refuse(each.position, completed.error().message);
     if (!*completed) continue;
@@ -138,9 +144,7 @@ Result<std::optional<KindSource::Made>> PcapReader::make() {
 void PcapReader::rewind() {
   impl_->packets.rewind();
   impl_->time = 0;
-  impl_->decoder = impl_->ouster  ? ouster_decoder(*impl_->ouster, true)
-                   : impl_->hesai ? hesai_decoder("hesai_lidar")
-                                  : velodyne_decoder("velodyne");
+  impl_->decoder = impl_->new_decoder();
 }
 
 }  // namespace aims

@@ -2,6 +2,7 @@
 #include "recordings/rosbag2/rosbag2_metadata.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <array>
@@ -109,13 +110,16 @@ Result<Rosbag2Metadata> read_rosbag2_metadata(const fs::path& folder) {
   if (!compressed) return tl::unexpected(compressed.error());
   Rosbag2Metadata metadata;
   metadata.compressed = *compressed;
-  std::set<std::string> listed_before;  // one that is listed twice is read once
+  std::set<std::pair<dev_t, ino_t>> listed_before;  // one that is listed twice is read once
   for (std::size_t i = 0;; ++i) {
     const std::string listed = scalar(*scalars, fmt::format("relative_file_paths.{}", i));
     if (listed.empty()) break;
     auto found = listed_file(folder, listed);
     if (!found) return tl::unexpected(found.error());
-    if (listed_before.insert(found->string()).second) metadata.files.push_back(std::move(*found));
+    struct stat status {};
+    const bool known = ::stat(found->c_str(), &status) == 0 &&
+                       !listed_before.emplace(status.st_dev, status.st_ino).second;
+    if (!known) metadata.files.push_back(std::move(*found));
     if (i >= kMaxFiles) {
       return failure(fmt::format("{}: expected at most {} files", file.string(), kMaxFiles));
     }

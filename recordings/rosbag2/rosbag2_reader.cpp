@@ -35,7 +35,7 @@ Result<std::unique_ptr<MessageSource>> open_part(const fs::path& file, BagOpenOp
   std::vector<std::byte> start(std::min<std::uint64_t>(opened->size(), 16));
   if (auto got = opened->read(0, start); !got) return tl::unexpected(got.error());
   if (is_zstd_frame(start)) {
-    const auto unpacked = UnpackedFile::create(file);
+    const auto unpacked = unpack_file(file);
     if (!unpacked) return tl::unexpected(unpacked.error());
     return open_part(unpacked->path(), options);
   }

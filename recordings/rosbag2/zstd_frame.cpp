@@ -2,17 +2,13 @@
 #include "recordings/rosbag2/zstd_frame.hpp"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 #include <zstd.h>
 
 #include <algorithm>
 #include <memory>
-#include <optional>
-#include <system_error>
 
 #include "core/files/byte_cursor.hpp"
 #include "recordings/bag/bag_file.hpp"
-#include "recordings/bag/bag_output.hpp"
 #include "recordings/bag/compression.hpp"
 
 namespace aims {
@@ -34,7 +30,7 @@ Result<std::uint64_t> stated_size(std::span<const std::byte> start) {
 /// Unpacks a file block by block.
 class FileUnpacker {
  public:
-  FileUnpacker(const BagFile& packed, BagOutput& output)
+  FileUnpacker(const BagFile& packed, TemporaryFile& output)
       : packed_(packed), output_(output), stream_(ZSTD_createDCtx(), &ZSTD_freeDCtx) {}
 
   Result<void> unpack(std::uint64_t size) {
@@ -73,21 +69,11 @@ class FileUnpacker {
   }
 
   const BagFile& packed_;
-  BagOutput& output_;
+  TemporaryFile& output_;
   std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> stream_;
   std::vector<std::byte> out_ = std::vector<std::byte>(kBlock);
   std::uint64_t written_ = 0;
 };
-
-/// A new folder for one file.
-Result<fs::path> temporary_folder() {
-  std::error_code code;
-  std::string folder = (fs::temp_directory_path(code) / "aims-XXXXXX").string();
-  if (code || ::mkdtemp(folder.data()) == nullptr) {
-    return failure("no folder for temporary files: set TMPDIR");
-  }
-  return folder;
-}
 
 Result<std::uint64_t> size_when_unpacked(const BagFile& packed) {
   std::vector<std::byte> start(std::min<std::uint64_t>(packed.size(), 32));
@@ -114,42 +100,19 @@ Result<void> unpack_frame(std::span<const std::byte> frame, std::size_t limit,
   return decompress(BagCompression::kZstd, frame, *size, out);
 }
 
-Result<UnpackedFile> UnpackedFile::create(const fs::path& packed) {
+Result<TemporaryFile> unpack_file(const fs::path& packed) {
   const auto file = BagFile::open(packed);
   if (!file) return tl::unexpected(file.error());
   const auto size = size_when_unpacked(*file);
   if (!size) return tl::unexpected(size.error());
-  const auto folder = temporary_folder();
-  if (!folder) return failure(fmt::format("{}: {}", packed.string(), folder.error().message));
-  UnpackedFile unpacked(*folder / packed.stem());
-  std::error_code code;
-  const fs::space_info space = fs::space(*folder, code);
-  if (!code && space.available < *size) {
-    return failure(fmt::format("{}: unpacked it needs {} bytes in {}, where {} are free",
-                               packed.string(), *size, folder->parent_path().string(),
-                               space.available));
-  }
-  auto output = create_bag_output(unpacked.path(), {});
-  if (!output) return tl::unexpected(output.error());
-  if (auto ok = FileUnpacker(*file, **output).unpack(*size); !ok) {
-    return tl::unexpected(ok.error());
-  }
-  if (auto ok = (*output)->close(); !ok) return tl::unexpected(ok.error());
-  return unpacked;
-}
-
-UnpackedFile::UnpackedFile(UnpackedFile&& other) noexcept
-    : path_(std::exchange(other.path_, fs::path())) {}
-
-UnpackedFile& UnpackedFile::operator=(UnpackedFile&& other) noexcept {
-  std::swap(path_, other.path_);
-  return *this;
-}
-
-UnpackedFile::~UnpackedFile() {
-  if (path_.empty()) return;
-  std::error_code ignored;
-  fs::remove_all(path_.parent_path(), ignored);
+  const auto refuse = [&](const Error& error) {
+    return failure(fmt::format("{}: {}", packed.string(), error.message));
+  };
+  auto output = TemporaryFile::create(packed.stem().string(), *size);
+  if (!output) return refuse(output.error());
+  if (auto ok = FileUnpacker(*file, *output).unpack(*size); !ok) return tl::unexpected(ok.error());
+  if (auto ok = output->publish(); !ok) return refuse(ok.error());
+  return output;
 }
 
 }  // namespace aims

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "recordings/rosbag2/temporary_file.hpp"
 
 namespace aims {
 
@@ -17,23 +18,8 @@ bool is_zstd_frame(std::span<const std::byte> bytes);
 Result<void> unpack_frame(std::span<const std::byte> frame, std::size_t limit,
                           std::vector<std::byte>& out);
 
-/// An unpacked copy of a compressed file, in the folder for temporary files. It is removed with
-/// this object; who has opened it can read on.
-class UnpackedFile {
- public:
-  /// Error for a file that does not hold one frame that states its size, and where the space for it
-  /// is missing.
-  static Result<UnpackedFile> create(const std::filesystem::path& packed);
-  UnpackedFile(UnpackedFile&& other) noexcept;
-  UnpackedFile& operator=(UnpackedFile&& other) noexcept;
-  ~UnpackedFile();
-
-  /// Named as the packed file, without the extension of zstd.
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  explicit UnpackedFile(std::filesystem::path path) : path_(std::move(path)) {}
-  std::filesystem::path path_;
-};
+/// An unpacked copy of a compressed file, named as that without the extension of zstd. Error for a
+/// file that does not hold one frame that states its size, and where the space for it is missing.
+Result<TemporaryFile> unpack_file(const std::filesystem::path& packed);
 
 }  // namespace aims

@@ -5,8 +5,8 @@
 
 namespace aims {
 
-/// Record times before the first cannot be true where others lie behind the second: the recorder's
-/// clock was not set yet.
+/// Where a recording has record times after `kSetRecordTime`, those before `kUnsetRecordTime` come
+/// from a recorder whose clock was not set yet.
 inline constexpr Time kUnsetRecordTime = kSecond;
 inline constexpr Time kSetRecordTime = 100'000'000 * kSecond;
 

@@ -28,9 +28,13 @@ struct RecordingPlan {
   Duration arrival_shift = 0;                               ///< added to record times
   Time start = 0;                                           ///< earliest record time that was set
   std::array<std::optional<Duration>, kRoleCount> latency;  ///< record time minus stamp, typically
+  std::array<Duration, kRoleCount> wait{};  ///< of messages, for those whose stamps move back more
   std::map<std::string, Duration> repeat_period;     ///< of topics that send each sample repeatedly
   std::array<bool, kRoleCount> stamped_by_record{};  ///< without stamps: record times are used
 };
+
+/// The configured delay of the stamps that serve a role; 0 for the truth [s].
+double delay_of(const RecordingConfig& config, Role role);
 
 /// Looks at the start of a recording and decides how to read it; its notes follow `notes`.
 Result<RecordingPlan> plan_recording(MessageSource& bag, const RecordingConfig& config,

@@ -50,6 +50,7 @@ struct RecordingReader::Impl {
 
   Result<void> fetch();
   bool hold(const BagMessage& message, const Channel& channel, const MessageView& view);
+  Time due(const BagMessage& message, const Channel& channel, const MessageView& view);
   void release(Time due, std::vector<Delivery>& out);
   void receive(const BagMessage& message, std::vector<Delivery>& out);
   bool is_repeated(const Channel& channel, const MessageView& view);
@@ -215,25 +216,31 @@ void RecordingReader::Impl::take(const Channel& channel, const MessageView& view
   if (channel.is(Role::kLegs)) take_legs(channel, view, out);
 }
 
-/// Keeps a message that is recorded before its stamp, as after the recorder's clock was set back or
-/// before it was set: it is due at its stamp and the usual latency.
+/// When a message arrives. One that is recorded before its stamp, as after the recorder's clock was
+/// set back or before it was set, is due at its stamp and the usual latency.
+Time RecordingReader::Impl::due(const BagMessage& message, const Channel& channel,
+                                const MessageView& view) {
+  const Time recorded = message.record_time;
+  const auto* const serves = std::ranges::find(channel.serves, true);
+  if (serves == channel.serves.end()) return recorded;
+  const auto role = static_cast<std::size_t>(serves - channel.serves.begin());
+  const auto stamp = view.time("header.stamp");
+  if (!stamp || !plan.latency[role]) return recorded + plan.wait[role];
+  const Duration early = *stamp + *plan.latency[role] - recorded;
+  const bool unset = recorded < kSecond;
+  if (early < kMaxEarly || (early > kMaxHold && !unset)) return recorded + plan.wait[role];
+  ++counts["recorded_before_their_stamp"];
+  return recorded + early + plan.wait[role];
+}
+
+/// Keeps a message that is not yet due.
 bool RecordingReader::Impl::hold(const BagMessage& message, const Channel& channel,
                                  const MessageView& view) {
-  const auto stamp = view.time("header.stamp");
-  if (!stamp) return false;
-  for (std::size_t i = 0; i < kRoleCount; ++i) {
-    if (!channel.serves[i] || !plan.latency[i]) continue;
-    const Time due = *stamp + *plan.latency[i];
-    const bool unset = message.record_time < kSecond;
-    const Duration early = due - message.record_time;
-    if (early < kMaxEarly || (early > kMaxHold && !unset)) return false;
-    ++counts["recorded_before_their_stamp"];
-    if (held_bytes + message.data.size() > kMaxHeldBytes) return false;
-    held_bytes += message.data.size();
-    held.emplace(due, Held{message.connection, {message.data.begin(), message.data.end()}});
-    return true;
-  }
-  return false;
+  const Time at = due(message, channel, view);
+  if (at <= message.record_time || held_bytes + message.data.size() > kMaxHeldBytes) return false;
+  held_bytes += message.data.size();
+  held.emplace(at, Held{message.connection, {message.data.begin(), message.data.end()}});
+  return true;
 }
 
 /// Takes the messages that are due.

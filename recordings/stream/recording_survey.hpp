@@ -30,11 +30,12 @@ class RecordingSurvey {
   /// Adds a message of tf; `fixed`: of /tf_static.
   void add_transforms(const MessageView& message, bool fixed) { frames_.add(message, fixed); }
 
-  /// Whether the loads of all contacts are to be added, and those of a message.
+  /// Whether thresholds are learned, for which `add_loads` takes every message of the contacts.
   bool learns_contacts() const { return legs_.learns_contacts(); }
   void add_loads(const MessageView& contacts) { legs_.add_loads(contacts); }
 
-  /// Whether the motion is to be added, of joints, contacts and IMU, and such a message.
+  /// Whether the order of the legs is open, for which `add_motion` takes messages of joints,
+  /// contacts and IMU until there are enough.
   bool needs_motion() const { return legs_.needs_order() && !legs_.has_enough_motion(); }
   void add_motion(const BagMessage& message, const Channel& channel);
 
@@ -71,6 +72,7 @@ class RecordingSurvey {
   static void keep_new(Seen& each);
   void decide_repeats(RecordingPlan& plan);
   void decide_stamps(RecordingPlan& plan);
+  void decide_waits(RecordingPlan& plan) const;
   void warn_of_clocks(const RecordingPlan& plan, const std::string& reference, Duration latency);
   void warn_of_up(const RecordingSetup& setup);
   std::set<std::string> unstamped_states() const;

@@ -60,6 +60,7 @@ void normalize_rounded(Trajectory& poses, const std::string& name,
 
 void drop_unusable(Trajectory& poses, const std::string& name, std::vector<std::string>& notes) {
   Trajectory usable;
+  usable.reserve(poses.size());
   std::array<std::size_t, kFaults> counts{};
   std::optional<Time> last;
   for (const StampedPose& each : poses) {

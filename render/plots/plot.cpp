@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "render/plots/thinned_line.hpp"
+
 namespace aims {
 namespace {
 
@@ -192,7 +194,7 @@ void draw_panel(Canvas& canvas, const Rect& area, const Panel& panel) {
     canvas.line(outline, {kArea, 0.8});  // closes the seams between neighbours
   }
   for (const Series& series : panel.series) {
-    canvas.line(pixels(series.points), series.stroke);
+    canvas.line(thinned_line(pixels(series.points)), series.stroke);
     for (const Eigen::Vector2d& point : series.points) {
       if (series.dot <= 0.0 || !point.allFinite()) continue;
       canvas.disc(to_pixels(panel, area, point), series.dot, series.stroke.color);

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <new>
 
 #include "sim/environment/surface_relief.hpp"
 #include "sim/environment/triangles.hpp"
@@ -32,18 +33,25 @@ void pass_through_glass(const RTCFilterFunctionNArguments* arguments) {
   }
 }
 
+/// Embree states a lack of memory by an error of the device.
+void check_memory(RTCDevice device) {
+  if (rtcGetDeviceError(device) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+}
+
 void attach(RTCDevice device, RTCScene scene, const TriangleMesh& mesh, unsigned surface,
             const Material& material) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
                                                                RTC_FORMAT_FLOAT3, 3 * sizeof(float),
                                                                mesh.vertices.size()));
+  check_memory(device);
   for (const Eigen::Vector3f& vertex : mesh.vertices) {
     for (int axis = 0; axis < 3; ++axis) *vertices++ = vertex[axis];
   }
   auto* indices = static_cast<std::uint32_t*>(
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                               3 * sizeof(std::uint32_t), mesh.triangles.size()));
+  check_memory(device);
   for (const auto& triangle : mesh.triangles) {
     for (const std::uint32_t index : triangle) *indices++ = index;
   }
@@ -160,6 +168,7 @@ RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>()) {
   }
   impl_->add(triangulate(scene.floor), scene.floor.material, true);
   commit(impl_->scene);
+  check_memory(impl_->device);
   if (!scene.surface.is_plain()) {
     impl_->relief.emplace(scene.surface, scene, scene.surface_seed);
   }

@@ -33,6 +33,9 @@ TEST(FuzzCorpus, SqliteFiles) { replay("db3", fuzz_db3); }
 TEST(FuzzCorpus, Messages) { replay("message", fuzz_message); }
 TEST(FuzzCorpus, MessagesOfRos2) { replay("cdr", fuzz_cdr); }
 TEST(FuzzCorpus, Recordings) { replay("recording", fuzz_recording); }
+TEST(FuzzCorpus, StatesOfRobots) { replay("states", fuzz_states); }
+TEST(FuzzCorpus, PacketsInBags) { replay("packets", fuzz_packets); }
+TEST(FuzzCorpus, MergedBags) { replay("merged", fuzz_merged); }
 TEST(FuzzCorpus, Yaml) { replay("yaml", fuzz_yaml); }
 TEST(FuzzCorpus, Tables) { replay("tables", fuzz_tables); }
 TEST(FuzzCorpus, Json) { replay("json", fuzz_json); }

@@ -24,6 +24,11 @@ void fuzz_message(std::span<const std::uint8_t> input);
 void fuzz_cdr(std::span<const std::uint8_t> input);
 /// Messages of a robot's topics in a sound bag, their content free: read as a recording.
 void fuzz_recording(std::span<const std::uint8_t> input);
+/// Sound messages of a robot's state, and of the packets of a LiDAR, with bytes changed.
+void fuzz_states(std::span<const std::uint8_t> input);
+void fuzz_packets(std::span<const std::uint8_t> input);
+/// Messages of three bags as one recording: in order of time, the same when read again.
+void fuzz_merged(std::span<const std::uint8_t> input);
 /// A scenario, a configuration of `aims estimate`, plans; or lines of `--set KEY=VALUE`.
 void fuzz_yaml(std::span<const std::uint8_t> input);
 /// A text as TUM, KITTI, CSV, PLY and waypoint times, each read and what was read written again.

@@ -3,6 +3,7 @@
 
 import ctypes
 import os
+import subprocess
 import time
 
 import numpy as np
@@ -133,6 +134,28 @@ class Poor(Legs):
         good = super().add_legs(stamp, pose, *rest)
         return [(stamp, good), (stamp - 1, good), (stamp + 1, np.full((4, 4), np.nan)),
                 (stamp + 2, 2 * np.eye(4))]
+
+
+class Future(Legs):
+    """From its 100th pose on, stamps in another unit: near the last that there are."""
+
+    def add_legs(self, stamp, pose, *rest):
+        good = super().add_legs(stamp, pose, *rest)
+        return (stamp, good) if self.count < 100 else (2**63 - 10**6 + self.count, good)
+
+
+class Leaves(Legs):
+    """Starts a process that lasts, notes its number, and shortens the shared points."""
+
+    def __init__(self, rig, note="note"):
+        super().__init__(rig)
+        with open(note, "w") as file:
+            file.write(str(subprocess.Popen(["sleep", "1000"]).pid))
+
+    def add_scan(self, stamp, *rest):
+        for each in os.listdir("/proc/self/fd"):
+            if "memfd:aims_points" in os.path.realpath(f"/proc/self/fd/{each}"):
+                os.truncate(f"/proc/self/fd/{each}", 0)
 
 
 class Needs:

@@ -316,6 +316,24 @@ def test_poses_that_are_none_are_left_out_and_counted(own):
     assert counts["pose_not_rigid"] == 2 * counts["pose_stamp_not_increasing"] > 200
 
 
+def test_stamps_of_another_time_are_left_out_and_spoil_nothing(own):
+    run(own, "estimate", "walk.bag", "--estimators",
+        "leg,mine=python:own_estimators.Legs,odd=python:own_estimators.Future", "-o", "odd")
+    counts = json.loads((own / "odd" / "estimate.json").read_text())["estimators"]["odd"]["counts"]
+    odd, mine = ((own / "odd" / f"{each}.tum").read_text().splitlines() for each in ("odd", "mine"))
+    assert odd == mine[: len(odd)] and counts["pose_stamp_not_measured"] == len(mine) - len(odd) > 100
+    assert len(aims.read_trajectory(own / "odd" / "leg.tum")) > 20
+
+
+def test_shared_points_cannot_be_shortened_and_no_process_is_left(own):
+    _, error = run(own, "estimate", "walk.bag", "--estimators",
+                   "leg,bad=python:own_estimators.Leaves", "-o", "leaves", code=2)
+    assert "bad: FAILED: python:own_estimators.Leaves: add_scan: PermissionError" in error
+    assert len(aims.read_trajectory(own / "leaves" / "leg.tum")) > 20
+    child = pathlib.Path("/proc") / (own / "note").read_text() / "stat"
+    assert not child.exists() or child.read_text().rpartition(")")[2].split()[0] == "Z"
+
+
 def test_an_interpreter_that_is_none_is_named(own):
     _, error = program("estimate", "walk.bag", "--estimators", "python:own_estimators.Legs", "-o",
                        "none", cwd=own, code=2, env={"AIMS_PYTHON": "/no/python"})

@@ -153,6 +153,49 @@ TEST_F(HostileInput, APathThatCannotBeFollowedIsBadInput) {
   }
 }
 
+TEST_F(HostileInput, APipeOrADeviceIsNoInput) {
+  simulate();
+  ASSERT_EQ(shell("mkfifo pipe pipe.csv && mkdir folder && mkfifo folder/metadata.yaml").exit_code,
+            0);
+  write("table.yaml", "file: pipe.csv\ntime: t\n");
+  const std::string truth = "score --truth walk.truth.tum --estimate ";
+  for (const std::string& line :
+       {std::string("info pipe"), std::string("info folder"), std::string("estimate table.yaml"),
+        std::string("estimate walk.bag --config pipe"), truth + "pipe", truth + "/dev/zero",
+        truth + "walk.truth.tum --waypoint-times pipe",
+        std::string("score --truth pipe --estimate walk.truth.tum")}) {
+    const Outcome outcome = aims(line);
+    EXPECT_EQ(outcome.exit_code, 2) << line;
+    EXPECT_TRUE(holds(outcome, "expected a regular file")) << line << outcome.output;
+  }
+}
+
+TEST_F(HostileInput, StampsCannotBeMovedBeyondTheirRange) {
+  simulate();
+  for (const char* offset : {"1e12", "-1e300", "nan", "inf"}) {
+    const Outcome outcome = aims(
+        "score --truth walk.truth.tum --estimate walk.truth.tum "
+        "--time-offset " +
+        std::string(offset));
+    EXPECT_EQ(outcome.exit_code, 2) << offset;
+    EXPECT_TRUE(holds(outcome, "--time-offset: ")) << outcome.output;
+  }
+}
+
+TEST_F(HostileInput, LimitsOfTheShellAreErrorsNotSignals) {
+  simulate();
+  for (const char* line : {"simulate my.yaml --out v.bag", "convert walk.bag -o v.mcap",
+                           "estimate walk.bag --estimators leg --no-page --out v"}) {
+    const Outcome outcome = shell("(ulimit -f 64; '" AIMS_COMMAND "' " + std::string(line) + ")");
+    EXPECT_EQ(outcome.exit_code, 2) << line << outcome.output;
+    EXPECT_TRUE(holds(outcome, "File too large")) << line << outcome.output;
+  }
+  // More or less memory than this fails elsewhere, but never by a signal.
+  const Outcome outcome =
+      shell("(ulimit -v 400000; '" AIMS_COMMAND "' simulate my.yaml --out w.bag)");
+  EXPECT_LT(outcome.exit_code, 128) << outcome.output;
+}
+
 TEST_F(HostileInput, ALongValueIsNotEchoedWhole) {
   std::ofstream(folder_.path() / "long.yaml") << "seed: " << std::string(400'000, 'a') << "\n";
   const Outcome outcome = aims("run long.yaml");

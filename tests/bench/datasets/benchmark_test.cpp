@@ -211,6 +211,26 @@ TEST_F(Benchmark, InfoFindsAWrongMountByTheRotationOfLidarOdometry) {
             std::string::npos);
 }
 
+/// The delay that `aims info --mount` advises [s]; 0 for none.
+double advised_delay(const std::string& output) {
+  const std::string key = "to try it: --set recording.lidar_delay=";
+  const std::size_t at = output.find(key);
+  return at == std::string::npos ? 0.0 : std::stod(output.substr(at + key.size()));
+}
+
+TEST_F(Benchmark, InfoFindsAClockByTheTurnRateOfLidarOdometry) {
+  const std::string bag = "'" + (walk_folder_->path() / "walk.bag").string() + "'";
+  const auto right = aims("info --mount " + bag);
+  EXPECT_NE(right.output.find("clock of the LiDAR: within 20 ms of the IMU's"), std::string::npos)
+      << right.output;
+  // Moved by 0.1 s either way: the advice is what takes that back.
+  for (const char* moved : {"0.1", "-0.1"}) {
+    const auto wrong = aims("info --mount " + bag + " --set recording.lidar_delay=" + moved);
+    EXPECT_NE(wrong.output.find("CLOCK OF THE LIDAR: stamped"), std::string::npos) << wrong.output;
+    EXPECT_NEAR(advised_delay(wrong.output), 0.0, 0.02) << wrong.output;
+  }
+}
+
 TEST_F(Benchmark, WhatIsMissingIsSaid) {
   const auto none = aims("benchmark geode data");
   EXPECT_EQ(none.exit_code, 2);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <random>
 
@@ -76,6 +77,35 @@ TEST(MountCheck, WhatTurnsAboutOneAxisDoNotShowIsNoContradiction) {
   EXPECT_FALSE(check_mount(rotations(truly, false), Eigen::Quaterniond::Identity()).contradicts);
   EXPECT_FALSE(check_mount({}, kMount).contradicts);
   EXPECT_EQ(check_mount({}, kMount).intervals, 0);
+}
+
+/// Rates of a body that turns at random, seen at `rate` Hz by a sensor `late` s behind, in a unit
+/// of `scale`.
+std::vector<TurnRate> rates(double rate_hz, double late, double scale) {
+  std::vector<TurnRate> all;
+  for (int i = 0; i < static_cast<int>(60 * rate_hz); ++i) {
+    const double t = i / rate_hz;
+    const double turn =
+        std::sin(0.9 * t) + 0.7 * std::sin(2.3 * t + 1.0) + 0.5 * std::sin(5.1 * t + 2.0);
+    all.push_back({from_seconds(t + late), scale * std::abs(0.5 * turn)});
+  }
+  return all;
+}
+
+TEST(RateCheck, AClockThatDiffersIsFound) {
+  for (const double late : {-0.2, 0.0, 0.08}) {
+    const RateCheck check = check_rates(rates(10.0, late, 1.0), rates(200.0, 0.0, 1.0));
+    ASSERT_TRUE(check.clock) << late;
+    EXPECT_NEAR(check.clock->seconds, late, 0.005);
+    EXPECT_NEAR(check.scale, 1.0, 0.02);
+  }
+}
+
+TEST(RateCheck, AGyroInDegreesIsFoundAndABodyThatStandsShowsNothing) {
+  EXPECT_NEAR(check_rates(rates(10.0, 0.0, 1.0), rates(200.0, 0.0, 57.3)).scale, 57.3, 1.0);
+  const RateCheck still = check_rates(rates(10.0, 0.0, 1e-3), rates(200.0, 0.0, 1e-3));
+  EXPECT_EQ(still.scale, 0.0);
+  EXPECT_FALSE(still.clock);
 }
 
 }  // namespace

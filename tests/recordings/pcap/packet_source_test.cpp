@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "recordings/messages/message_types.hpp"
@@ -40,6 +41,9 @@ const Driver kPandar = {"pandar_msgs/PandarScan", "PandarPacket",
 const Driver kUdpFrame = {"hesai_ros_driver/UdpFrame", "UdpPacket",
                           "time stamp\nuint8[] data\nuint32 size\n", 0, true};
 
+const Driver kRobosense = {"rslidar_msgs/rslidarScan", "rslidarPacket",
+                           "time stamp\nuint8[1248] data\n", 1248};
+
 class Packets : public test::RecordingTest {
  protected:
   /// Messages of `each` packets.
@@ -69,6 +73,7 @@ class Packets : public test::RecordingTest {
 
   Recording read(const Driver& driver, const std::vector<RoomPacket>& packets, std::size_t each) {
     const auto file = folder_.path() / (driver.type.substr(0, 4) + driver.packet_type + ".bag");
+    std::filesystem::remove(file);
     RobotRecording robot(file);
     robot.add_transforms(test::kMounted);
     robot.add_imu(kBegin, 20);
@@ -146,6 +151,63 @@ TEST_F(Packets, OfAHesaiWithSixteenLasersHaveEverySecondElevation) {
     const double across = std::hypot(point.position.x(), point.position.y());
     EXPECT_NEAR(std::atan2(point.position.z(), across) / kDegree, -15.0 + 2.0 * point.ring, 1e-3);
   }
+}
+
+void expect_rs16_scan(const LidarScan& scan, double tilt) {
+  expect_on_walls(scan);
+  for (const LidarPoint& point : scan.points) {
+    const double time = to_seconds(scan.stamp + point.time_offset_ns - kBegin);
+    const double azimuth = std::atan2(-point.position.y(), point.position.x()) / kDegree;
+    EXPECT_LT(off_by(azimuth, 3600.0 * time), 0.02);
+    const double across = std::hypot(point.position.x(), point.position.y()) - 0.03825;
+    EXPECT_NEAR(std::atan2(point.position.z(), across) / kDegree, -15.0 + 2.0 * point.ring + tilt,
+                1e-3);
+  }
+}
+
+TEST_F(Packets, OfARobosenseBecomeScansOfTheRoom) {
+  for (const bool dual : {false, true}) {
+    SCOPED_TRACE(dual);
+    const Recording recording = read(kRobosense, test::rs16_packets(kBegin, 3, {dual}), 84);
+    ASSERT_EQ(recording.error, "");
+    EXPECT_EQ(recording.setup.topics.lidar, "/packets/points");
+    const auto scans = test::scans_of(recording.deliveries);
+    ASSERT_EQ(scans.size(), 3U);
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      EXPECT_NEAR(static_cast<double>(scans[i]->points.size()), 16 * 0.1 / 55.5e-6, 64.0);
+      EXPECT_NEAR(to_seconds(scans[i]->stamp - kBegin), 0.1 * static_cast<double>(i), 2e-4);
+      expect_rs16_scan(*scans[i], 0.0);
+    }
+  }
+}
+
+TEST_F(Packets, OfARobosenseHaveTheElevationsOfItsInformation) {
+  const test::Rs16 sensor = {.tilt = 0.5};
+  RobotRecording robot(bag());
+  robot.add_imu(kBegin, 20);
+  const MessageType type = {"rslidar_msgs/rslidarPacket", "", "time stamp\nuint8[1248] data\n"};
+  const RoomPacket information = test::rs16_information(kBegin, sensor);
+  MessageBytes out;
+  out.time(kBegin);
+  out.append(information.payload.data(), information.payload.size());
+  robot.add("/packets_difop", type, kBegin - 1, out);
+  add(robot, kRobosense, test::rs16_packets(kBegin, 2, sensor), 84);
+  robot.close();
+  const Recording recording = test::read_recording(bag());
+  ASSERT_EQ(recording.error, "");
+  const auto scans = test::scans_of(recording.deliveries);
+  ASSERT_EQ(scans.size(), 2U);
+  for (const auto& scan : scans) expect_rs16_scan(*scan, sensor.tilt);
+}
+
+TEST_F(Packets, OfAnotherRobosenseAreNamed) {
+  auto packets = test::rs16_packets(kBegin, 1);
+  for (RoomPacket& each : packets) each.payload[30] = std::byte{2};
+  const std::string error = read(kRobosense, packets, 84).error;
+  EXPECT_NE(error.find("expected packets of an RS-LiDAR-16 (model 0x01), found model 0x02 (an "
+                       "RS-LiDAR-32)"),
+            std::string::npos)
+      << error;
 }
 
 TEST_F(Packets, OfAnotherModelAreNamed) {

@@ -273,6 +273,19 @@ TEST_F(Capture, OfAHesaiHasItsScans) {
   EXPECT_EQ(reader->connections()[0].messages, 2U);
 }
 
+TEST_F(Capture, OfARobosenseHasItsScans) {
+  const test::Rs16 sensor = {.tilt = 0.5};
+  std::string bytes = header() + frame(Packet{test::rs16_information(kSecond, sensor).payload});
+  for (const auto& each : test::rs16_packets(1'700'000'123 * kSecond, 2, sensor)) {
+    bytes += frame(Packet{each.payload});
+  }
+  ASSERT_TRUE(write_file_atomically(folder_.path() / "c.pcap", bytes));
+  const auto reader = PcapReader::open(folder_.path() / "c.pcap");
+  ASSERT_TRUE(reader) << reader.error().message;
+  ASSERT_EQ(reader->connections().size(), 1U);
+  EXPECT_EQ(reader->connections()[0].messages, 2U);
+}
+
 TEST_F(Capture, NamesTheProfileThatIsNotRead) {
   ASSERT_TRUE(write_file_atomically(folder_.path() / "c.json",
                                     R"({"udp_profile_lidar": "FUSA_RNG15_RFL8_NIR8_DUAL"})"));

@@ -74,6 +74,37 @@ void put_utc(Bytes& out, Time time) {
   out.put(static_cast<std::uint32_t>(time % kSecond / 1000));
 }
 
+void put_big(Bytes& out, int value) {
+  out.put(static_cast<std::uint8_t>(value >> 8)).put(static_cast<std::uint8_t>(value));
+}
+
+/// The date as an RS-LiDAR-16 counts it, from 2000 on.
+void put_rs16_date(Bytes& out, Time time) {
+  Bytes date;
+  put_utc(date, time);
+  date.all.resize(6);
+  date.all[0] = static_cast<std::byte>(std::to_integer<int>(date.all[0]) - 100);
+  out.all.insert(out.all.end(), date.all.begin(), date.all.end());
+  const auto microseconds = static_cast<int>(time % kSecond / 1000);
+  put_big(out, microseconds / 1000);
+  put_big(out, microseconds % 1000);
+}
+
+/// Channels 1 to 8 from the lowest to the middle, 9 to 16 from the highest [deg].
+double rs16_elevation(int channel) {
+  return channel < 8 ? -15.0 + 2.0 * channel : 15.0 - 2.0 * (channel - 8);
+}
+
+void put_rs16_return(Bytes& out, int channel, double azimuth, const Rs16& sensor) {
+  const double up = (rs16_elevation(channel % 16) + sensor.tilt) * kDegree;
+  const Eigen::Vector3d across(std::cos(azimuth), -std::sin(azimuth), 0.0);
+  const Eigen::Vector3d direction = std::cos(up) * across + std::sin(up) * Eigen::Vector3d::UnitZ();
+  const double range = range_in_room(0.03825 * across, direction);
+  const bool in_front = sensor.dual && channel < 16;  // a return of something thin
+  put_big(out, static_cast<int>(std::lround((in_front ? 0.5 : 1.0) * range / 0.005)));
+  out.put(static_cast<std::uint8_t>(in_front ? 20 : 100 + channel));
+}
+
 constexpr std::size_t kBeams = 16, kColumns = 512;
 
 double beam_altitude(std::size_t beam) { return 20.0 - 40.0 * static_cast<double>(beam) / 15.0; }
@@ -153,6 +184,48 @@ std::vector<RoomPacket> xt_packets(Time start, int turns, int lasers) {
     packets.push_back({last + 60'000, std::move(out.all)});
   }
   return packets;
+}
+
+std::vector<RoomPacket> rs16_packets(Time start, int turns, const Rs16& sensor) {
+  constexpr double kFiring = 55'500.0;  // [ns]
+  const int firings = sensor.dual ? 1 : 2;
+  const double block_time = firings * kFiring;
+  std::vector<RoomPacket> packets;
+  for (int first = 0; first * block_time < turns * static_cast<double>(kTurn); first += 12) {
+    // The sensor's clock has whole microseconds.
+    const Time time = start + static_cast<Time>(first * block_time) / 1000 * 1000;
+    Bytes out;
+    out.put(std::uint64_t{0xa050a55a0a05aa55}).zeros(12);
+    put_rs16_date(out, time);
+    out.put(std::uint8_t{1}).zeros(11);
+    for (int block = first; block < first + 12; ++block) {
+      const double begin = 36000.0 * block * block_time / static_cast<double>(kTurn);
+      out.put(std::uint16_t{0xeeff});
+      put_big(out, static_cast<int>(begin) % 36000);
+      for (int channel = 0; channel < 32; ++channel) {
+        const double after = (sensor.dual ? 0 : channel / 16) * kFiring + channel % 16 * 2'800.0;
+        const double azimuth =
+            begin * kDegree / 100.0 + 2.0 * std::numbers::pi * after / static_cast<double>(kTurn);
+        put_rs16_return(out, channel, azimuth, sensor);
+      }
+    }
+    out.zeros(4).put(std::uint16_t{0xff00});
+    packets.push_back({time + 1'500'000, std::move(out.all)});
+  }
+  return packets;
+}
+
+RoomPacket rs16_information(Time time, const Rs16& sensor) {
+  Bytes out;
+  out.put(std::uint64_t{0x555511115a00ffa5}).zeros(292);
+  out.put(static_cast<std::uint8_t>(sensor.dual ? 0 : 1)).zeros(864);
+  for (int channel = 0; channel < 16; ++channel) {
+    const auto angle = std::lround(1e4 * std::abs(rs16_elevation(channel) + sensor.tilt));
+    out.put(static_cast<std::uint8_t>(angle >> 16));
+    put_big(out, static_cast<int>(angle & 0xffff));
+  }
+  out.zeros(35);
+  return {time, std::move(out.all)};
 }
 
 std::vector<RoomPacket> ouster_lidar_packets(Time start, Time clock, int turns) {

@@ -24,6 +24,17 @@ std::vector<RoomPacket> vlp16_packets(Time start, int turns);
 /// which is 3.28 us after `start`, a whole number of microseconds.
 std::vector<RoomPacket> xt_packets(Time start, int turns, int lasers = 32);
 
+/// Of a RoboSense RS-LiDAR-16 (MSOP, as rs_driver reads it) from azimuth 0 on; `start` is a whole
+/// number of microseconds. `tilt` [deg] is added to the elevations by a calibration.
+struct Rs16 {
+  bool dual = false;  ///< two returns: the second has a larger intensity, the first is shorter
+  double tilt = 0.0;
+};
+std::vector<RoomPacket> rs16_packets(Time start, int turns, const Rs16& sensor = {});
+
+/// Its packet of device information (DIFOP).
+RoomPacket rs16_information(Time time, const Rs16& sensor);
+
 /// Of an Ouster with 16 beams and 512 columns (profile LEGACY), whose clock begins at `clock`.
 std::vector<RoomPacket> ouster_lidar_packets(Time start, Time clock, int turns);
 std::vector<RoomPacket> ouster_imu_packets(Time start, Time clock, int packets);

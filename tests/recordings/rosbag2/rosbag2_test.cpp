@@ -209,6 +209,9 @@ TEST_F(Rosbag2, AFileThatIsListedTwiceIsReadOnceAndNoneOutsideTheFolder) {
     return read(path("walk"));
   };
   EXPECT_EQ(list("walk_0.db3, ./walk_0.db3, walk_0.db3").messages.size(), once.messages.size());
+  fs::create_symlink("walk_0.db3", path("walk/soft.db3"));
+  fs::create_hard_link(path("walk/walk_0.db3"), path("walk/hard.db3"));
+  EXPECT_EQ(list("soft.db3, hard.db3, walk_0.db3").messages.size(), once.messages.size());
   fs::copy(path("walk/walk_0.db3"), path("other.db3"));
   EXPECT_NE(list("../other.db3").error.find("expected the file '../other.db3'"), std::string::npos);
 }

@@ -116,6 +116,9 @@ TEST_F(RecordingReaderTest, ALidarClockSinceBootIsAWarningWithTheDelayThatCorrec
   }
   robot.close();
   EXPECT_TRUE(test::read_recording(bag()).noted("set recording.lidar_delay=-1699999999.000"));
+  RecordingConfig corrected;
+  corrected.lidar_delay = -1699999999.0;
+  EXPECT_FALSE(test::read_recording(bag(), corrected).noted("set recording.lidar_delay"));
 }
 
 TEST_F(RecordingReaderTest, StatesWhichPartsOfCloudsAndImuTheRecordingHolds) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "render/plots/scene_plan.hpp"
+#include "render/plots/thinned_line.hpp"
 #include "render/plots/time_plot.hpp"
 #include "render/plots/trajectory_plot.hpp"
 #include "tests/render/plots/picture_file.hpp"
@@ -145,6 +146,36 @@ TEST(Plot, CutsALineThatLeavesItsAxes) {
   ASSERT_TRUE(write_figure(folder / "a.png", figure));
   const Image image = read_png(folder / "a.png");
   EXPECT_NEAR(count_pixels(image, colour_of(0)), 3 * 100, 110);
+}
+
+TEST(Plot, ThinsALineToWhatItsPixelsShow) {
+  std::vector<Eigen::Vector2d> points;
+  for (int i = 0; i < 1'000'000; ++i) {
+    points.emplace_back(700e-6 * i, 100.0 + 50.0 * std::sin(0.37 * i) + 30.0 * std::sin(1e-5 * i));
+  }
+  points[500'000].y() = std::nan("");
+  points[250'000].y() = 190.0;  // a spike of one point
+  const auto thin = thinned_line(points);
+  EXPECT_LT(thin.size(), 4 * 4 * 701U);
+  EXPECT_EQ(thin.front(), points.front());
+  EXPECT_EQ(thin.back(), points.back());
+  // Oracle: the lowest and the highest value over each pixel.
+  const auto range_of = [](const std::vector<Eigen::Vector2d>& line) {
+    std::vector<std::pair<double, double>> ranges(700, {1e9, -1e9});
+    int gaps = 0;
+    for (const Eigen::Vector2d& each : line) {
+      gaps += each.allFinite() ? 0 : 1;
+      if (!each.allFinite()) continue;
+      auto& [low, high] = ranges[static_cast<std::size_t>(each.x())];
+      low = std::min(low, each.y());
+      high = std::max(high, each.y());
+    }
+    EXPECT_EQ(gaps, 1);
+    return ranges;
+  };
+  EXPECT_EQ(range_of(thin), range_of(points));
+  points.resize(1'000);
+  EXPECT_EQ(thinned_line(points), points);
 }
 
 TEST(ScenePlan, SeesThroughLintelsAndRoofs) {

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What stamps and record times say of the clocks, and of samples that are sent again.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "recordings/stream/recording_survey.hpp"
+
+namespace aims {
+namespace {
+
+/// Larger differences mean that recorder and sensors use different clocks.
+constexpr Duration kMaxClockDifference = 5 * kSecond;
+/// Between the latencies of sensors on one clock.
+constexpr Duration kMaxLatencyDifference = kSecond / 4;
+/// A step back of stamps that is no exchange of neighbours.
+constexpr Duration kMaxDisorder = kSecond / 5;
+
+bool all_zero(const std::vector<Time>& stamps) {
+  return stamps.size() >= 3 &&
+         std::all_of(stamps.begin(), stamps.end(), [](Time stamp) { return stamp == 0; });
+}
+
+/// The latency that a tenth of the messages do not reach: others were delayed.
+Duration early_latency(std::vector<Duration> latencies) {
+  const auto at = latencies.begin() + static_cast<std::ptrdiff_t>(latencies.size() / 10);
+  std::ranges::nth_element(latencies, at);
+  return *at;
+}
+
+/// Where configured delays differ by more, arrivals move with the stamps: estimators sort what
+/// arrives within 50 ms, and would drop what is later.
+constexpr double kSortedDelay = 0.025;  ///< [s]
+/// Beyond it the sensors have different clocks, and arrive when they do.
+constexpr double kMaxDelay = 2.0;  ///< [s]
+
+}  // namespace
+
+double delay_of(const RecordingConfig& config, Role role) {
+  if (role == Role::kTruth) return 0.0;
+  if (role == Role::kLidar) return config.lidar_delay;
+  return role == Role::kImu ? config.imu_delay : config.leg_delay;
+}
+
+/// Messages with smaller delays wait for those with the largest, which then arrive earlier.
+void RecordingSurvey::decide_waits(RecordingPlan& plan) const {
+  std::array<double, kRoleCount> delays{};
+  double smallest = 0.0, largest = 0.0;
+  bool any = false;
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    const Role role = static_cast<Role>(i);
+    if (role == Role::kTruth || topic_of(topics_, role).empty()) continue;
+    if (plan.stamped_by_record[i]) return;  // a later record time would be a later stamp
+    delays[i] = delay_of(config_, role);
+    smallest = any ? std::min(smallest, delays[i]) : delays[i];
+    largest = any ? std::max(largest, delays[i]) : delays[i];
+    any = true;
+  }
+  if (largest - smallest <= kSortedDelay || largest - smallest >= kMaxDelay) return;
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    plan.wait[i] = std::max<Duration>(0, from_seconds(largest - delays[i]));
+  }
+  plan.arrival_shift -= from_seconds(largest);
+}
+
+/// Record time minus stamp of messages without delay. Where stamps go backwards in the order of the
+/// recording, that of the earliest stamps: the recorder's clock was set back later.
+Duration RecordingSurvey::latency_of(const Seen& each) {
+  std::vector<std::pair<Time, Duration>> by_stamp;
+  int backwards = 0;
+  for (std::size_t i = 0; i < each.stamps.size(); ++i) {
+    by_stamp.emplace_back(each.stamps[i], each.latencies[i]);
+    if (i > 0 && each.stamps[i] < each.stamps[i - 1] - kMaxDisorder) ++backwards;
+  }
+  if (backwards < 2) return early_latency(each.latencies);
+  std::ranges::stable_sort(by_stamp, {}, &std::pair<Time, Duration>::first);
+  std::vector<Duration> first;
+  for (std::size_t i = 0; i < std::min<std::size_t>(by_stamp.size(), 20); ++i) {
+    first.push_back(by_stamp[i].second);
+  }
+  return early_latency(std::move(first));
+}
+
+/// Samples that are sent again under new stamps count once.
+void RecordingSurvey::decide_repeats(RecordingPlan& plan) {
+  for (const auto& [topic, finder] : repeats_) {
+    const auto period = finder.period();
+    if (!period) continue;
+    plan.repeat_period[topic] = *period;
+    notes_.push_back(fmt::format(
+        "{}: each sample is sent {:.1f} times, and new every {:.1f} ms: "
+        "repetitions are left out",
+        topic, static_cast<double>(finder.messages()) / static_cast<double>(finder.samples()),
+        1e3 * to_seconds(*period)));
+    for (std::size_t i = 0; i < kRoleCount; ++i) {
+      if (topic_of(topics_, static_cast<Role>(i)) == topic) keep_new(seen_[i]);
+    }
+  }
+}
+
+void RecordingSurvey::keep_new(Seen& each) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < each.is_new.size(); ++i) {
+    if (!each.is_new[i]) continue;
+    each.stamps[kept] = each.stamps[i];
+    each.latencies[kept++] = each.latencies[i];
+  }
+  each.stamps.resize(kept);
+  each.latencies.resize(kept);
+  each.is_new.assign(kept, true);
+}
+
+/// Clocks: stamps that were never set, and sensors with different clocks.
+void RecordingSurvey::decide_stamps(RecordingPlan& plan) {
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    const Role role = static_cast<Role>(i);
+    const std::string& topic = topic_of(topics_, role);
+    if (topic.empty()) continue;
+    if (seen_[i].stamps.empty()) {
+      if (role != Role::kTruth) notes_.push_back(fmt::format("{}: no message", topic));
+    } else if (all_zero(seen_[i].stamps)) {
+      plan.stamped_by_record[i] = true;
+      notes_.push_back(fmt::format("{}: stamps are all zero, record times are used", topic));
+    } else {
+      plan.latency[i] = latency_of(seen_[i]);
+    }
+  }
+  const auto& imu = plan.latency[static_cast<std::size_t>(Role::kImu)];
+  const auto& lidar = plan.latency[static_cast<std::size_t>(Role::kLidar)];
+  const std::optional<Duration> first = imu ? imu : lidar;
+  if (!first) return;
+  warn_of_clocks(plan, imu ? topics_.imu : topics_.lidar,
+                 *first + from_seconds(delay_of(config_, imu ? Role::kImu : Role::kLidar)));
+  if (std::abs(*first) < kMaxClockDifference) return;
+  plan.arrival_shift = -*first;
+  notes_.push_back(
+      fmt::format("the recorder's clock is {:.3f} s {} the sensors': arrivals are shifted by it",
+                  std::abs(to_seconds(*first)), *first > 0 ? "ahead of" : "behind"));
+}
+
+/// Warns of topics whose clock is not that of the reference.
+void RecordingSurvey::warn_of_clocks(const RecordingPlan& plan, const std::string& reference,
+                                     Duration latency) {
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    const Role role = static_cast<Role>(i);
+    const std::string& topic = topic_of(topics_, role);
+    if (!plan.latency[i] || role == Role::kTruth || topic == reference) continue;
+    Duration behind = *plan.latency[i] + from_seconds(delay_of(config_, role)) - latency;
+    // A cloud with the stamp of its start is complete, and sent, a period later.
+    if (role == Role::kLidar && plan.cloud.stamp == CloudStamp::kStart) behind -= plan.cloud.period;
+    if (std::abs(behind) < kMaxLatencyDifference) continue;
+    notes_.warn(fmt::format("clocks of {} and {} differ", topic, reference),
+                fmt::format("{}: stamps are {:.3f} s {} those of other topics: set "
+                            "recording.{}_delay={:.3f} if their clocks differ",
+                            topic, std::abs(to_seconds(behind)), behind > 0 ? "behind" : "ahead of",
+                            role == Role::kLidar ? "lidar" : "leg",
+                            delay_of(config_, role) - to_seconds(behind)));
+  }
+}
+
+}  // namespace aims
