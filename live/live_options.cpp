@@ -72,7 +72,7 @@ void add_options(CLI::App& app, LiveOptions& options) {
                  "Timeout [s] without the needed topics; 0: none (0)")
       ->check(CLI::Range(0.0, 1e6));
   app.add_option("--max-wait,--max_wait", options.max_wait,
-                 "A cloud that has waited longer [s] for the estimator is dropped (0.25)")
+                 "A cloud that has waited longer [s] for the estimator is dropped (0.2)")
       ->check(CLI::Range(0.05, 20.0));
 }
 

@@ -26,7 +26,7 @@ struct LiveOptions {
   bool tf = false;                  ///< also publish odom_frame -> body_frame on /tf
   double settle = 3.0;     ///< time gathered before topics, units and extrinsics are decided [s]
   double patience = 0.0;   ///< timeout without the needed topics [s]; 0: none
-  double max_wait = 0.25;  ///< a cloud that has waited longer for the estimator is dropped [s]
+  double max_wait = 0.2;  ///< a cloud that has waited longer for the estimator is dropped [s]
   // Of DDS alone.
   std::optional<std::uint32_t> domain;  ///< none: $ROS_DOMAIN_ID, or 0
   std::string node = "aims";            ///< namespace of the published topics

@@ -16,7 +16,7 @@ namespace aims {
 struct LiveRecordingOptions {
   Duration settle = 3 * kSecond;    ///< gathered before topics, units and extrinsics are decided
   double patience = 0.0;            ///< timeout without the needed topics [s]; 0: none
-  Duration max_wait = kSecond / 4;  ///< of a cloud, once the estimator has caught up
+  Duration max_wait = kSecond / 5;  ///< of a cloud, once the estimator has caught up
   LiveSource::Observer observer;    ///< sees the messages that are read; none: nobody
   ClockWatch* clocks = nullptr;     ///< once it is broken, reading ends
 };

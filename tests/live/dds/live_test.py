@@ -78,10 +78,16 @@ class Live:
         self.play = subprocess.Popen([*self.play_command, *wait], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                      text=True)
 
+    def kill(self):
+        for process in (self.play, self.live):
+            if process.poll() is None:
+                process.kill()
+
     def wait_for(self, what, condition, seconds=40):
         end = time.monotonic() + seconds
         while not condition():
             if time.monotonic() > end:
+                self.kill()
                 raise AssertionError(f"no {what} in {seconds} s\n{self.log()}")
             time.sleep(0.1)
 
@@ -99,9 +105,7 @@ class Live:
             self.live.send_signal(signal.SIGTERM)
             return self.live.wait(30)
         finally:
-            for process in (self.play, self.live):
-                if process.poll() is None:
-                    process.kill()
+            self.kill()
 
     def written(self, part=""):
         file = os.path.join(self.name, part, "aims_d.tum")
