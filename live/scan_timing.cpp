@@ -2,8 +2,9 @@
 #include "live/scan_timing.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <variant>
+
+#include "live/message.hpp"
 
 namespace aims {
 namespace {
@@ -13,11 +14,6 @@ constexpr Duration kCatchUp = 2 * kSecond;
 constexpr double kRatePeriod = 0.9;  ///< [s]
 
 }  // namespace
-
-Time wall_time() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-}
 
 ScanTiming::ScanTiming() : first_(wall_time() + kCatchUp), rates_from_(wall_time()) {}
 

@@ -11,9 +11,6 @@
 
 namespace aims {
 
-/// This computer's time [ns] since the epoch.
-Time wall_time();
-
 /// From the arrival of scans to their odometry, without those that waited for the start; and how
 /// often measurements arrive.
 class ScanTiming {

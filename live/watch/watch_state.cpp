@@ -2,7 +2,6 @@
 #include "live/watch/watch_state.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -18,11 +17,6 @@ using Json = nlohmann::ordered_json;
 constexpr double kStep = 0.05;             ///< between points of the path [m]
 constexpr std::size_t kMaxPath = 20'000;   ///< then every other point is removed
 constexpr std::size_t kScanPoints = 3000;  ///< shown
-
-std::int64_t now() {
-  const auto since = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(since).count();
-}
 
 }  // namespace
 
@@ -109,7 +103,7 @@ std::string WatchState::json(std::uint64_t epoch, std::size_t from) const {
   const std::vector<std::array<double, 2>> path(path_.begin() + static_cast<std::ptrdiff_t>(begin),
                                                 path_.end());
   Json json = {{"node", node_},
-               {"silent_s", last_ > 0 ? Json(to_seconds(now() - last_)) : Json()},
+               {"silent_s", last_ > 0 ? Json(to_seconds(wall_time() - last_)) : Json()},
                {"pose", Json()},
                {"path", {{"epoch", epoch_}, {"from", begin}, {"xy", path}}},
                {"scan", scan_},
