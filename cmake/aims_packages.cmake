@@ -32,6 +32,7 @@ any system's trajectory against a truth, and draws what happened.")
 # Libraries are found by dpkg-shlibdeps; the fonts are for the pictures.
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS fonts-dejavu-core)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS aims-live)  # of `aims live`, `play` and `watch`
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libaims-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
@@ -48,8 +49,8 @@ set(CPACK_DEBIAN_LIVE_PACKAGE_NAME aims-live)
 set(CPACK_DEBIAN_LIVE_PACKAGE_SECTION science)
 set(CPACK_COMPONENT_LIVE_DESCRIPTION
   "legged-robot localization in degenerate corridors, live under ROS 2
-Estimates a legged robot's motion live from ROS 2 topics, and plays recordings
-on them. Speaks DDS: needs neither ROS nor anything of the simulation.")
+Estimates a legged robot's motion live from ROS 2 topics, shows it in a browser,
+and plays recordings. Speaks DDS: needs neither ROS nor anything of the simulation.")
 set(CPACK_DEBIAN_LIVE_PACKAGE_SHLIBDEPS ON)
 
 set(CPACK_DEBIAN_ROS_PACKAGE_NAME aims-node)

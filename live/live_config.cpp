@@ -54,7 +54,15 @@ Result<LiveConfig> load_live_config(const LiveOptions& options) {
     auto ok = load_config(options.config, config, &assigned);
     if (!ok) return tl::unexpected(ok.error());
   }
-  if (auto ok = apply_overrides(config, options.overrides, &assigned); !ok) {
+  std::vector<std::string> overrides;
+  if (!options.calibration.empty()) {
+    auto calibration = read_robot_calibration(options.calibration);
+    if (!calibration) return failure("--calibration " + calibration.error().message);
+    overrides = prior_settings(*calibration, options.calibration);
+    config.calibration = std::move(*calibration);
+  }
+  overrides.insert(overrides.end(), options.overrides.begin(), options.overrides.end());
+  if (auto ok = apply_overrides(config, overrides, &assigned); !ok) {
     return tl::unexpected(ok.error());
   }
   const std::vector<std::string> run = {config.estimator};

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "core/config.hpp"
 #include "core/error.hpp"
 #include "estimator/estimator_config.hpp"
+#include "estimator/robot_calibration.hpp"
 #include "live/live_options.hpp"
 #include "recordings/recording_config.hpp"
 
@@ -17,7 +19,8 @@ namespace aims {
 struct LiveConfig {
   RecordingConfig recording;
   EstimatorConfigs estimators;
-  std::string estimator = "aims";  ///< spec of who estimates; from the options
+  std::string estimator = "aims";               ///< spec of who estimates; from the options
+  std::optional<RobotCalibration> calibration;  ///< from the options
 };
 
 void describe(Fields& fields, LiveConfig& config);
@@ -27,8 +30,8 @@ void describe(Fields& fields, LiveConfig& config);
 Result<std::filesystem::path> find_robot(const std::string& robot,
                                          const std::filesystem::path& program);
 
-/// Reads the robot's file, then the options' file and applies their settings on top. Error for an
-/// unknown estimator too.
+/// Reads the robot's file, then the options' file and applies their calibration and settings on
+/// top. Error for an unknown estimator too.
 Result<LiveConfig> load_live_config(const LiveOptions& options);
 
 }  // namespace aims

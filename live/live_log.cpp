@@ -3,11 +3,25 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "core/files/atomic_file.hpp"
+#include "core/files/ply.hpp"
 #include "core/files/tum.hpp"
 
 namespace aims {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json warnings_json(const RecordingSetup& setup) {
+  Json json = Json::array();
+  for (const ReadingWarning& each : setup.warnings) json.push_back(each.text);
+  return json;
+}
+
+}  // namespace
 
 LiveLog::LiveLog() : health_table_({"stamp_s", "state", "reasons", "position_sigma_m"}) {}
 
@@ -18,6 +32,7 @@ Result<LiveLog> LiveLog::create(const std::filesystem::path& folder, const std::
   std::filesystem::create_directories(folder, error);
   if (error) return failure(fmt::format("{}: {}", folder.string(), error.message()));
   log.folder_ = folder;
+  log.name_ = name;
   const auto open = [&](std::ofstream& file, const std::string& ending) -> Result<void> {
     const auto path = folder / (name + ending);
     if (std::filesystem::exists(path)) {
@@ -34,6 +49,11 @@ Result<LiveLog> LiveLog::create(const std::filesystem::path& folder, const std::
 
 Result<void> LiveLog::add(std::span<const StampedPose> poses, std::span<const HealthRow> health) {
   if (folder_.empty()) return {};
+  for (const StampedPose& each : poses) {
+    if (count_++ == 0) first_ = last_ = each.pose.translation;
+    path_m_ += (each.pose.translation - last_).norm();
+    last_ = each.pose.translation;
+  }
   for (const HealthRow& row : health) {
     health_table_.add(to_seconds(row.stamp)).add(name_of(row.state));
     health_table_.add(fmt::format("{}", fmt::join(row.reasons, "; "))).add(row.position_sigma);
@@ -43,6 +63,38 @@ Result<void> LiveLog::add(std::span<const StampedPose> poses, std::span<const He
   health_ << health_table_.take_text() << std::flush;
   if (poses_ && health_) return {};
   return failure(fmt::format("{}: cannot be written: no space left?", folder_.string()));
+}
+
+Result<void> LiveLog::save_map(std::span<const Eigen::Vector3f> points) const {
+  if (folder_.empty() || points.empty()) return {};
+  return write_ply(folder_ / (name_ + ".map.ply"), points);
+}
+
+Result<void> LiveLog::save_summary(const RecordingReader& reader, const EstimatorResult& result,
+                                   bool complete) const {
+  if (folder_.empty()) return {};
+  const RecordingSetup& setup = reader.setup();
+  const Json json = {{"schema", "aims.estimate/1"},
+                     {"bag", "live topics"},
+                     {"complete", complete},
+                     {"recorded_s", to_seconds(reader.position())},
+                     {"topics",
+                      {{"lidar", setup.topics.lidar},
+                       {"imu", setup.topics.imu},
+                       {"leg_odometry", setup.topics.leg_odometry},
+                       {"joint_states", setup.topics.joint_states},
+                       {"contacts", setup.topics.contacts}}},
+                     {"notes", setup.notes},
+                     {"warnings", warnings_json(setup)},
+                     {"counts", reader.counts()},
+                     {"estimators",
+                      {{name_,
+                        {{"poses", count_},
+                         {"path_m", path_m_},
+                         {"displacement_m", (last_ - first_).norm()},
+                         {"counts", result.counts}}}}}};
+  return write_file_atomically(folder_ / "estimate.json",
+                               json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace aims

@@ -1,21 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <fstream>
-#include <memory>
+#include <map>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/files/csv.hpp"
 #include "core/trajectory.hpp"
-#include "estimator/health.hpp"
+#include "estimator/estimator.hpp"
+#include "recordings/stream/recording_reader.hpp"
 
 namespace aims {
 
-/// NAME.tum and NAME.health.csv of a live estimate, as `aims estimate` writes them. Each row is in
-/// the file as soon as it is added: a crash or a power failure loses at most the last second.
+/// The folder of a live estimate, as `aims estimate` writes it: NAME.tum, NAME.health.csv,
+/// NAME.map.ply and estimate.json. Rows are in their files as soon as they are added, the others
+/// now and then: after a crash or a power failure, what is there can be used.
 class LiveLog {
  public:
   /// No folder: nothing is written. Error when it cannot be made or has such files.
@@ -24,13 +28,28 @@ class LiveLog {
   /// Appends the rows. Error when the disk is full.
   Result<void> add(std::span<const StampedPose> poses, std::span<const HealthRow> health);
 
+  /// Writes the map, in the odometry frame [m]; nothing without points.
+  Result<void> save_map(std::span<const Eigen::Vector3f> points) const;
+
+  /// Writes estimate.json: what was read so far, counts of the reader and of the estimator, poses.
+  /// `complete`: the estimate has ended.
+  Result<void> save_summary(const RecordingReader& reader, const EstimatorResult& result,
+                            bool complete) const;
+
+  const std::filesystem::path& folder() const { return folder_; }  ///< empty: none
+
  private:
   LiveLog();
 
   std::filesystem::path folder_;
+  std::string name_;
   std::ofstream poses_;
   std::ofstream health_;
   CsvTable health_table_;
+  std::size_t count_ = 0;  ///< poses
+  double path_m_ = 0.0;
+  Eigen::Vector3d first_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d last_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace aims

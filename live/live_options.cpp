@@ -33,6 +33,7 @@ Fields fields_of_options(LiveOptions& options) {
   fields.text("estimator", options.estimator, {});
   fields.text("robot", options.robot, {});
   fields.text("config", options.config, {});
+  fields.text("calibration", options.calibration, {});
   fields.text("out", options.out, {});
   fields.text("record", options.record, {});
   fields.text("odom_frame", options.odom_frame, {});
@@ -46,17 +47,23 @@ Fields fields_of_options(LiveOptions& options) {
 
 void add_options(CLI::App& app, LiveOptions& options) {
   app.add_option("--estimator,--estimators", options.estimator, "Estimator to run (aims_d)");
-  app.add_option("--robot", options.robot,
-                 "Topics of a robot: simulated, go2, ouster, livox, or a YAML file like theirs");
+  app.add_option(
+      "--robot", options.robot,
+      "Topics of a robot: simulated, anymal, go2, ouster, livox, or a YAML file like theirs");
   app.add_option("--config", options.config, "YAML file with recording, estimator");
+  app.add_option("--calibration", options.calibration,
+                 "Calibration of the robot, a file of `aims calibrate`:\n"
+                 "a prior that the data can overrule (none)");
   app.add_option("--set", options.overrides, "key=value, applied after the file; repeatable")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("--out", options.out, "Folder for trajectory and health, written as they come");
+  app.add_option("--out", options.out,
+                 "Folder for trajectory, health, counts and map, as they come");
   app.add_option("--record", options.record,
                  "Recording to write of the messages read: .mcap under ROS 2, .bag under ROS 1");
-  app.add_option("--odom_frame", options.odom_frame, "Frame of the published poses (odom)");
-  app.add_option("--body_frame", options.body_frame, "Frame of the IMU (imu)");
+  app.add_option("--odom-frame,--odom_frame", options.odom_frame,
+                 "Frame of the published poses (odom)");
+  app.add_option("--body-frame,--body_frame", options.body_frame, "Frame of the IMU (imu)");
   app.add_flag("--tf", options.tf, "Also publish the pose on /tf");
   app.add_option("--settle", options.settle,
                  "Time [s] gathered before topics, units and extrinsics are decided (3)")
@@ -64,8 +71,8 @@ void add_options(CLI::App& app, LiveOptions& options) {
   app.add_option("--patience", options.patience,
                  "Timeout [s] without the needed topics; 0: none (0)")
       ->check(CLI::Range(0.0, 1e6));
-  app.add_option("--max_wait", options.max_wait,
-                 "A cloud that has waited longer [s] for the estimator is dropped (0.25)")
+  app.add_option("--max-wait,--max_wait", options.max_wait,
+                 "A cloud that has waited longer [s] for the estimator is dropped (0.2)")
       ->check(CLI::Range(0.05, 20.0));
 }
 
@@ -73,8 +80,12 @@ void add_dds_options(CLI::App& app, LiveOptions& options) {
   app.add_option("--domain", options.domain, "DDS domain ($ROS_DOMAIN_ID, else 0)")
       ->check(CLI::Range(0, 232));
   app.add_option("--node", options.node, "Namespace of the published topics (aims)");
-  app.add_flag("--source_time", options.source_time,
+  app.add_flag("--source-time,--source_time", options.source_time,
                "Arrivals are the publishers' times of sending: for aims_play at another pace");
+  app.add_option("--tell", options.tell,
+                 "Send a command to the running node of that name and end: save_map, calibrate "
+                 "(standing), reset")
+      ->check(CLI::IsMember({"save_map", "calibrate", "reset"}));
 }
 
 }  // namespace
@@ -95,7 +106,9 @@ Result<LiveCommand> parse_live_arguments(std::vector<std::string> arguments, Liv
     return failure(fmt::format("{}; see --help", error.what()));
   }
   for (const CLI::Option* option : app.get_options()) {
-    if (option->count() > 0) command.given.push_back(option->get_single_name());
+    if (option->count() == 0) continue;
+    command.given.push_back(option->get_single_name());
+    std::ranges::replace(command.given.back(), '-', '_');
   }
   return command;
 }

@@ -17,19 +17,21 @@ struct LiveOptions {
   std::string estimator = "aims_d";
   std::string robot;                   ///< name of a robot's file, or its path; empty: none
   std::string config;                  ///< YAML file with `recording` and `estimator`
+  std::string calibration;             ///< of the robot, a file of `aims calibrate`; empty: none
   std::vector<std::string> overrides;  ///< key=value, applied after the file
-  std::string out;                     ///< folder of trajectory and health; empty: none
-  std::string record;                  ///< recording of the messages read; empty: none
-  std::string odom_frame = "odom";     ///< of the published poses
-  std::string body_frame = "imu";      ///< child frame: the IMU's
-  bool tf = false;                     ///< also publish odom_frame -> body_frame on /tf
-  double settle = 3.0;     ///< time gathered before topics, units and extrinsics are decided [s]
-  double patience = 0.0;   ///< timeout without the needed topics [s]; 0: none
-  double max_wait = 0.25;  ///< a cloud that has waited longer for the estimator is dropped [s]
+  std::string out;                  ///< folder of trajectory, health, counts and map; empty: none
+  std::string record;               ///< recording of the messages read; empty: none
+  std::string odom_frame = "odom";  ///< of the published poses
+  std::string body_frame = "imu";   ///< child frame: the IMU's
+  bool tf = false;                  ///< also publish odom_frame -> body_frame on /tf
+  double settle = 3.0;    ///< time gathered before topics, units and extrinsics are decided [s]
+  double patience = 0.0;  ///< timeout without the needed topics [s]; 0: none
+  double max_wait = 0.2;  ///< a cloud that has waited longer for the estimator is dropped [s]
   // Of DDS alone.
   std::optional<std::uint32_t> domain;  ///< none: $ROS_DOMAIN_ID, or 0
   std::string node = "aims";            ///< namespace of the published topics
   bool source_time = false;             ///< arrivals are the publishers' times of sending
+  std::string tell;                     ///< command to send to a running node; empty: estimate
 };
 
 enum class LiveNetwork { kRos1, kDds };

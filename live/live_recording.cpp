@@ -39,20 +39,25 @@ bool is_estimated(const std::string& topic, const std::map<std::string, std::str
 /// Collects the messages of all topics of the last `kMaxGathered`, and all latched messages.
 class Gathering {
  public:
-  explicit Gathering(Transport& transport) : transport_(transport) {}
+  Gathering(Transport& transport, Commands& commands) : transport_(transport), commands_(commands) {
+    // To receive latched messages again, where another estimate went before.
+    for (const auto& [topic, type] : transport.topics()) {
+      if (!is_command(topic)) transport.unsubscribe(topic);
+    }
+  }
 
   /// Collects messages for `kPoll`.
   void collect() {
     const auto topics = transport_.topics();
     for (const auto& [topic, type] : topics) {
       if (std::ranges::find(kIgnoredTypes, type) != kIgnoredTypes.end()) continue;
-      if (is_estimated(topic, topics)) continue;
+      if (is_estimated(topic, topics) || is_command(topic)) continue;
       if (subscribed_.insert(topic).second) transport_.subscribe(topic, type);
     }
     const Stopwatch timer;
     while (timer.seconds() < kPoll) {
       // Time 0: a simulated clock that has not started.
-      if (auto message = transport_.wait(kPoll); message && message->arrival > 0) {
+      if (auto message = commands_.wait(kPoll); message && message->arrival > 0) {
         messages_->push_back(std::move(*message));
       }
       if (!transport_.running()) return;
@@ -68,6 +73,10 @@ class Gathering {
   const std::set<std::string>& subscribed() const { return subscribed_; }
 
  private:
+  bool is_command(const std::string& topic) const {
+    return topic == transport_.resolved("~command");
+  }
+
   void trim() {
     if (span() <= kMaxGathered) return;
     const Time oldest = messages_->back().arrival - kMaxGathered;
@@ -77,16 +86,17 @@ class Gathering {
   }
 
   Transport& transport_;
+  Commands& commands_;
   std::shared_ptr<LiveMessages> messages_ = std::make_shared<LiveMessages>();
   std::set<std::string> subscribed_;
 };
 
 /// Waits for messages; from the first time that none is waiting on, clouds may wait no longer than
 /// `max_wait`: before, the estimator catches up with what was gathered.
-LiveSource::Wait waiting_for(Transport& transport, Duration max_wait) {
-  return [&transport, max_wait, late = true]() mutable -> std::optional<LiveMessage> {
-    while (transport.running()) {
-      auto message = transport.wait(late ? 0.0 : kPoll);
+LiveSource::Wait waiting_for(Transport& transport, Commands& commands, Duration max_wait) {
+  return [&transport, &commands, max_wait, late = true]() mutable -> std::optional<LiveMessage> {
+    while (transport.running() && !commands.restarts()) {
+      auto message = commands.wait(late ? 0.0 : kPoll);
       if (message) return message;
       if (std::exchange(late, false)) transport.limit_wait(max_wait);
     }
@@ -94,10 +104,11 @@ LiveSource::Wait waiting_for(Transport& transport, Duration max_wait) {
   };
 }
 
-Result<RecordingReader> try_open(Transport& transport, const Gathering& gathering,
-                                 const RecordingConfig& config, const LiveRecordingOptions& options,
+Result<RecordingReader> try_open(Transport& transport, Commands& commands,
+                                 const Gathering& gathering, const RecordingConfig& config,
+                                 const LiveRecordingOptions& options,
                                  const SetupCheck& check_setup) {
-  auto wait = waiting_for(transport, options.max_wait);
+  auto wait = waiting_for(transport, commands, options.max_wait);
   auto source = std::make_unique<LiveSource>(gathering.messages(), wait);
   LiveSource& live = *source;
   auto reader = RecordingReader::open(std::move(source), config);
@@ -106,23 +117,24 @@ Result<RecordingReader> try_open(Transport& transport, const Gathering& gatherin
   for (const std::string& topic : gathering.subscribed()) {
     if (!live.selects(topic)) transport.unsubscribe(topic);
   }
-  live.go_live(options.observer);
+  live.go_live(options.observer, options.clocks);
   return reader;
 }
 
 }  // namespace
 
 Result<RecordingReader> open_live_recording(
-    Transport& transport, const RecordingConfig& config, const LiveRecordingOptions& options,
-    const SetupCheck& check_setup, const std::function<void(const std::string&)>& waiting) {
-  Gathering gathering(transport);
+    Transport& transport, Commands& commands, const RecordingConfig& config,
+    const LiveRecordingOptions& options, const SetupCheck& check_setup,
+    const std::function<void(const std::string&)>& waiting) {
+  Gathering gathering(transport, commands);
   const Stopwatch since_start;
   Stopwatch since_report;
   std::string missing = "no messages yet";
   while (transport.running()) {
     gathering.collect();
     if (gathering.span() >= options.settle) {
-      auto reader = try_open(transport, gathering, config, options, check_setup);
+      auto reader = try_open(transport, commands, gathering, config, options, check_setup);
       if (reader) return reader;
       missing = reader.error().message;
     } else if (gathering.span() > 0) {

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/time.hpp"
+#include "live/commands.hpp"
 #include "live/live_source.hpp"
 #include "live/transport.hpp"
 #include "recordings/stream/recording_reader.hpp"
@@ -15,8 +16,9 @@ namespace aims {
 struct LiveRecordingOptions {
   Duration settle = 3 * kSecond;    ///< gathered before topics, units and extrinsics are decided
   double patience = 0.0;            ///< timeout without the needed topics [s]; 0: none
-  Duration max_wait = kSecond / 4;  ///< of a cloud, once the estimator has caught up
+  Duration max_wait = kSecond / 5;  ///< of a cloud, once the estimator has caught up
   LiveSource::Observer observer;    ///< sees the messages that are read; none: nobody
+  ClockWatch* clocks = nullptr;     ///< once it is broken, reading ends
 };
 
 /// Error unless the setup suffices, naming what is missing.
@@ -24,8 +26,10 @@ using SetupCheck = std::function<Result<void>(const RecordingSetup& setup)>;
 
 /// Gathers all topics of the network until topics, units and extrinsics can be decided as for a bag
 /// and `check_setup` passes; then only those that are used. Meanwhile `waiting` is called every few
-/// seconds with what is missing. Error when the node is asked to end, or after the timeout.
-Result<RecordingReader> open_live_recording(Transport& transport, const RecordingConfig& config,
+/// seconds with what is missing. Reading ends when the node is asked to end or to start anew. Error
+/// when the node is asked to end before, or after the timeout.
+Result<RecordingReader> open_live_recording(Transport& transport, Commands& commands,
+                                            const RecordingConfig& config,
                                             const LiveRecordingOptions& options,
                                             const SetupCheck& check_setup,
                                             const std::function<void(const std::string&)>& waiting);

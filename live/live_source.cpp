@@ -59,8 +59,27 @@ BagMessage LiveSource::as_recorded(const LiveMessage& message, const BagConnecti
   return {.connection = &connection, .record_time = last_, .data = message.data};
 }
 
-void LiveSource::go_live(Observer observer) {
+/// Whether the clocks allow for reading on.
+bool LiveSource::goes_on(const LiveMessage& message, const BagConnection& connection) {
+  if (!live_ || clocks_ == nullptr || connection.latching) return true;
+  const auto [place, added] = decoders_.try_emplace(&connection);
+  if (added) {
+    auto decoder =
+        MessageDecoder::create(connection.type, connection.definition, connection.format);
+    if (decoder) place->second = std::move(*decoder);
+  }
+  std::optional<Time> stamp;
+  if (place->second) {
+    if (const auto view = place->second->decode(message.data)) stamp = view->time("header.stamp");
+  }
+  if (stamp == 0) stamp.reset();
+  clocks_->add(connection.topic, stamp, message.arrival);
+  return clocks_->broken().empty();
+}
+
+void LiveSource::go_live(Observer observer, ClockWatch* clocks) {
   live_ = true;
+  clocks_ = clocks;
   observer_ = std::move(observer);
   if (!observer_) return;
   const Time now = std::exchange(last_, summary_.start);
@@ -88,6 +107,7 @@ Result<std::optional<BagMessage>> LiveSource::next() {
   while (const LiveMessage* message = following()) {
     auto wanted = given(*message);
     if (!wanted) continue;
+    if (!goes_on(*message, *wanted->connection)) return std::nullopt;
     if (observer_ && message == &current_) observer_(*wanted);
     return wanted;
   }

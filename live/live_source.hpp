@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -10,8 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "live/clock_watch.hpp"
 #include "live/message.hpp"
 #include "recordings/bag/message_source.hpp"
+#include "recordings/messages/message_decoder.hpp"
 
 namespace aims {
 
@@ -42,14 +45,16 @@ class LiveSource final : public MessageSource {
   bool selects(const std::string& topic) const { return !selected_ || selected_->contains(topic); }
 
   /// Makes `next` wait for new messages after the gathered ones instead of ending. `observer` sees
-  /// all gathered messages, which decided how to read, then the selected ones.
-  void go_live(Observer observer = {});
+  /// all gathered messages, which decided how to read, then the selected ones. `clocks` judges
+  /// their stamps: once it is broken, `next` ends; it must outlive the source.
+  void go_live(Observer observer = {}, ClockWatch* clocks = nullptr);
 
  private:
   const BagConnection* find(const LiveConnection& connection) const;
   void announce(const LiveConnection& connection);
   const LiveMessage* following();
   std::optional<BagMessage> given(const LiveMessage& message);
+  bool goes_on(const LiveMessage& message, const BagConnection& connection);
   BagMessage as_recorded(const LiveMessage& message, const BagConnection& connection);
 
   std::shared_ptr<LiveMessages> gathered_;
@@ -59,6 +64,8 @@ class LiveSource final : public MessageSource {
   std::optional<std::set<std::string>> selected_;  ///< nothing: all topics
   bool live_ = false;
   Observer observer_;
+  ClockWatch* clocks_ = nullptr;
+  std::map<const BagConnection*, std::optional<MessageDecoder>> decoders_;  ///< for the stamps
   std::size_t position_ = 0;  ///< among the gathered messages
   LiveMessage current_;       ///< the last message that was waited for
   Time last_ = 0;             ///< record time of the last message returned

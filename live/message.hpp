@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -18,6 +19,12 @@ struct LiveConnection {
   bool latching = false;   ///< late subscribers receive the last message
   bool cdr = false;        ///< messages as ROS 2 serializes them; else as ROS 1 does
 };
+
+/// This computer's time [ns] since the epoch.
+inline std::int64_t wall_time() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+}
 
 /// A message from the network.
 struct LiveMessage {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "live/odometry_content.hpp"
 
+#include <cmath>
+
 namespace aims {
 namespace {
 
@@ -45,6 +47,27 @@ OdometryContent odometry_of(const MotionEstimate& motion) {
       of_velocity * motion.covariance * of_velocity.transpose();
   content.twist_covariance.block<3, 3>(kAngular, kAngular) = motion.rate_covariance;
   return content;
+}
+
+Pose level(const Pose& pose) {
+  const Eigen::Matrix3d R = pose.R();
+  Pose turned;
+  turned.translation = pose.translation;
+  turned.rotation =
+      Eigen::Quaterniond(Eigen::AngleAxisd(std::atan2(R(1, 0), R(0, 0)), Eigen::Vector3d::UnitZ()));
+  return turned;
+}
+
+MotionEstimate placed_at(const Pose& T_frame_odom, const MotionEstimate& motion) {
+  const Eigen::Matrix3d R = T_frame_odom.R();
+  MotionEstimate placed = motion;
+  placed.T_odom_body = T_frame_odom * motion.T_odom_body;
+  placed.velocity = R * motion.velocity;
+  Eigen::Matrix<double, 9, 9> turn = Eigen::Matrix<double, 9, 9>::Identity();
+  turn.block<3, 3>(kPosition, kPosition) = R;
+  turn.block<3, 3>(kVelocity, kVelocity) = R;
+  placed.covariance = turn * motion.covariance * turn.transpose();
+  return placed;
 }
 
 }  // namespace aims

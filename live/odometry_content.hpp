@@ -14,4 +14,10 @@ OdometryContent odometry_between(const StampedPose& from, const StampedPose& to)
 /// fixed axes of the odometry frame, twist and its covariance in the axes of the body.
 OdometryContent odometry_of(const MotionEstimate& motion);
 
+/// The pose with its heading and position alone.
+Pose level(const Pose& pose);
+
+/// The motion in the frame in which its odometry frame has the level pose `T_frame_odom`.
+MotionEstimate placed_at(const Pose& T_frame_odom, const MotionEstimate& motion);
+
 }  // namespace aims

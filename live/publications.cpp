@@ -63,7 +63,8 @@ void Publications::map(Time stamp, std::span<const Eigen::Vector3f> points) {
   send(map_, points_message(header(stamp), points, serialization_));
 }
 
-void Publications::health(const HealthRow& row, std::size_t dropped, std::size_t lost) {
+void Publications::health(const HealthRow& row,
+                          std::vector<std::pair<std::string, std::string>> figures) {
   constexpr std::uint8_t kLevels[] = {1, 0, 1, 2};  // starting, healthy, degraded, invalid
   DiagnosticContent content;
   content.level = kLevels[static_cast<int>(row.state)];
@@ -72,9 +73,9 @@ void Publications::health(const HealthRow& row, std::size_t dropped, std::size_t
   if (!row.reasons.empty()) {
     content.message += fmt::format(": {}", fmt::join(row.reasons, "; "));
   }
-  content.values = {{"position sigma [m]", fmt::format("{:.3f}", row.position_sigma)},
-                    {"messages dropped", fmt::format("{}", dropped)},
-                    {"messages lost", fmt::format("{}", lost)}};
+  figures.insert(figures.begin(),
+                 {"position sigma [m]", fmt::format("{:.3f}", row.position_sigma)});
+  content.values = std::move(figures);
   send(diagnostics_, diagnostics_message(header(row.stamp), content, serialization_));
 }
 

@@ -7,6 +7,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/trajectory.hpp"
 #include "estimator/health.hpp"
@@ -44,8 +46,8 @@ class Publications {
   void cloud(Time stamp, std::span<const Eigen::Vector3f> points);
   void map(Time stamp, std::span<const Eigen::Vector3f> points);
 
-  /// The state; messages `dropped` since the node was too slow, and `lost` by the network.
-  void health(const HealthRow& row, std::size_t dropped, std::size_t lost);
+  /// The state, with figures of the node: their names and values.
+  void health(const HealthRow& row, std::vector<std::pair<std::string, std::string>> figures);
 
  private:
   std::size_t advertise(const char* topic, const MessageType& type);

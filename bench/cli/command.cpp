@@ -218,6 +218,10 @@ const CLI::App& Command::program() const {
 }
 
 int run_program(const Program& program, int argc, char** argv) {
+  const std::span<char*> words(argv, static_cast<std::size_t>(argc));
+  for (const ExternalCommand& each : program.external) {
+    if (argc > 1 && std::string(argv[1]) == each.name) return run_external(each, words.subspan(1));
+  }
   int exit_code = kOk;
   CLI::App app(program.description, program.name);
   app.footer(program.footer);
@@ -226,7 +230,11 @@ int run_program(const Program& program, int argc, char** argv) {
   for (const CommandEntry& each : program.commands) {
     each.declare(root.subcommand(each.name, each.summary), program.scenario_folder);
   }
-  const std::span<char*> words(argv, static_cast<std::size_t>(argc));
+  for (const ExternalCommand& each : program.external) {
+    CLI::App* command = app.add_subcommand(each.name, each.summary);
+    command->set_help_flag();                             // which its program has
+    if (find_external(each).empty()) command->group("");  // hidden
+  }
   if (const std::string wrong = unknown_command(app, words.subspan(1)); !wrong.empty()) {
     print_error(fmt::format("{}: {}", program.name, wrong));
     return kBadInput;

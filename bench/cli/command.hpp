@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/cli/external_command.hpp"
+
 namespace CLI {
 class App;
 class Option;
@@ -86,6 +88,7 @@ struct Program {
   std::string footer;
   std::string version;
   std::span<const CommandEntry> commands;
+  std::span<const ExternalCommand> external;  ///< listed in the help where they are installed
   std::filesystem::path scenario_folder;
 };
 

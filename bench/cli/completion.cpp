@@ -80,6 +80,10 @@ void add_command(const CLI::App& command, const std::string& path, Cases& cases)
   if (!options.empty()) cases.options += branch(fmt::format("\"{}\"", path), options);
   for (const CLI::App* each : below) {
     const std::string name = each->get_name();
+    if (each->get_help_ptr() == nullptr) {  // a program of its own
+      cases.options += fmt::format("    \"{0}\") _aims_options_of \"$2\" {0} ;;\n", name);
+      continue;
+    }
     add_command(*each, path.empty() ? name : path + " " + name, cases);
   }
 }
@@ -92,6 +96,10 @@ std::string declared(const CLI::App& program) {
       "_aims_words() {{\n  case \"$1\" in\n{}  esac\n}}\n\n"
       "_aims_options() {{\n  case \"$1\" in\n{}  esac\n}}\n\n"
       "_aims_values() {{\n  case \"$1 $2\" in\n{}  esac\n}}\n\n"
+      "# Options of a command that is a program of its own.\n"
+      "_aims_options_of() {{\n"
+      "  \"$1\" \"$2\" --help 2>/dev/null | grep -oE -- '--[a-z][a-z_-]*' | sort -u\n"
+      "}}\n\n"
       "# Words as they are, or names that the program knows.\n"
       "_aims_names() {{\n"
       "  case \"$2\" in\n"
@@ -117,7 +125,7 @@ constexpr const char* kBashFunction = R"sh(_aims() {
   if [[ $previous == -* && $kind != "@flag" ]]; then
     names="$(_aims_names "$program" "$kind")"
   elif [[ $cur == -* ]]; then
-    names="$(_aims_options "$path")"
+    names="$(_aims_options "$path" "$program")"
   else
     names="$(_aims_names "$program" "$(_aims_words "$path")")"
   fi
@@ -147,7 +155,7 @@ constexpr const char* kZshFunction = R"sh(_aims() {
   if [[ $previous == -* && $kind != "@flag" ]]; then
     names="$(_aims_names "$program" "$kind")"
   elif [[ $cur == -* ]]; then
-    names="$(_aims_options "$at_path")"
+    names="$(_aims_options "$at_path" "$program")"
   else
     names="$(_aims_names "$program" "$(_aims_words "$at_path")")"
   fi

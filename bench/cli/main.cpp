@@ -52,6 +52,13 @@ constexpr std::array kCommands = {
                  aims::declare_completion},
 };
 
+constexpr std::array kExternal = {
+    aims::ExternalCommand{"live", "Estimate from the topics of a running robot (ROS 2)",
+                          "aims-live"},
+    aims::ExternalCommand{"play", "Publish a recording on the topics of ROS 2", "aims-live"},
+    aims::ExternalCommand{"watch", "Show a live estimate in a browser", "aims-live"},
+};
+
 constexpr const char* kDescription =
     "aims: benchmark of legged-robot localization in degenerate corridors.\n"
     "A simulated quadruped walks through a scenario. Every estimator gets the same\n"
@@ -85,8 +92,8 @@ int main(int argc, char** argv) {
   try {
     const auto scenarios =
         aims::default_scenario_folder(std::filesystem::read_symlink("/proc/self/exe"));
-    const aims::Program program = {"aims",    kDescription, kFooter, "aims " AIMS_VERSION,
-                                   kCommands, scenarios};
+    const aims::Program program = {"aims",    kDescription, kFooter,  "aims " AIMS_VERSION,
+                                   kCommands, kExternal,    scenarios};
     const int exit_code = aims::run_program(program, argc, argv);
     if (const auto finished = aims::finish_output(); !finished) {
       aims::print_error("aims: " + finished.error().message);

@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <exception>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,14 +10,13 @@
 #include "live/dds/dds_transport.hpp"
 #include "live/dds/discovery.hpp"
 #include "live/dds/playback.hpp"
+#include "live/program.hpp"
 #include "recordings/source/recording_file.hpp"
 
 namespace aims {
 namespace {
 
-constexpr int kOk = 0;
-constexpr int kBadInput = 2;
-constexpr int kInternal = 3;
+constexpr const char* kProgram = "aims_play";
 constexpr double kMaxBlocking = 10.0;  ///< a player waits for its subscribers [s]
 
 struct PlayArguments {
@@ -26,11 +24,6 @@ struct PlayArguments {
   DdsOptions dds;
   PlaybackOptions playback;
 };
-
-int bad_input(const std::string& message) {
-  fmt::print(stderr, "aims_play: {}\n", message);
-  return kBadInput;
-}
 
 void add_options(CLI::App& app, PlayArguments& arguments) {
   app.add_option("recording", arguments.files,
@@ -52,14 +45,14 @@ void add_options(CLI::App& app, PlayArguments& arguments) {
 int run(const PlayArguments& arguments) {
   std::vector<std::filesystem::path> with(arguments.files.begin() + 1, arguments.files.end());
   const auto recording = open_recording(arguments.files.front(), {.with = std::move(with)});
-  if (!recording) return bad_input(recording.error().message);
+  if (!recording) return report_bad_input(kProgram, recording.error().message);
   const auto transport = DdsTransport::connect(arguments.dds);
-  if (!transport) return bad_input(transport.error().message);
+  if (!transport) return report_bad_input(kProgram, transport.error().message);
   const auto outcome = play(**recording, **transport, arguments.playback);
   for (const std::string& problem : (*transport)->take_problems()) {
     fmt::print(stderr, "aims_play: warning: {}\n", problem);
   }
-  if (!outcome) return bad_input(outcome.error().message);
+  if (!outcome) return report_bad_input(kProgram, outcome.error().message);
   for (const std::string& skipped : outcome->skipped) {
     fmt::print(stderr, "aims_play: warning: not played: {}\n", skipped);
   }
@@ -68,13 +61,13 @@ int run(const PlayArguments& arguments) {
   if (outcome->blocked > 0) {
     fmt::print("warning: {} messages were not sent: a subscriber is too slow\n", outcome->blocked);
   }
-  return kOk;
+  return kLiveOk;
 }
 
 int main_of(int argc, char** argv) {
   PlayArguments arguments;
   const auto domain = default_domain();
-  if (!domain) return bad_input(domain.error().message);
+  if (!domain) return report_bad_input(kProgram, domain.error().message);
   arguments.dds.domain = *domain;
   arguments.dds.node = "aims_play";
   arguments.dds.keep_all = true;
@@ -85,9 +78,9 @@ int main_of(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
     fmt::print("{}", app.help());
-    return kOk;
+    return kLiveOk;
   } catch (const CLI::ParseError& error) {
-    return bad_input(fmt::format("{}; see --help", error.what()));
+    return report_bad_input(kProgram, fmt::format("{}; see --help", error.what()));
   }
   return run(arguments);
 }
@@ -96,10 +89,5 @@ int main_of(int argc, char** argv) {
 }  // namespace aims
 
 int main(int argc, char** argv) {
-  try {
-    return aims::main_of(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "aims_play: internal error: {}\n", error.what());
-    return aims::kInternal;
-  }
+  return aims::guarded_main(aims::kProgram, [&] { return aims::main_of(argc, argv); });
 }

@@ -51,11 +51,6 @@ Qos quality(const OfferedQuality& offered, double blocking) {
   return qos;
 }
 
-std::int64_t wall_time() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-}
-
 const char* name_of_policy(std::uint32_t policy) {
   if (policy == DDS_RELIABILITY_QOS_POLICY_ID) return "reliability";
   if (policy == DDS_DURABILITY_QOS_POLICY_ID) return "durability";

@@ -91,6 +91,8 @@ OfferedQuality Discovery::quality_of(const std::string& topic) const {
     all.reliable = all.reliable && offer.quality.reliable;
     all.transient_local = all.transient_local && offer.quality.transient_local;
   }
+  // Before there is a publisher: the quality that matches any.
+  if (publishers(topic) == 0) return {false, false};
   all.transient_local = all.transient_local && all.reliable;
   return all;
 }

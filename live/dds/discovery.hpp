@@ -35,7 +35,7 @@ class Discovery {
   /// How many publish the topic.
   std::size_t publishers(const std::string& topic) const;
 
-  /// What all publishers of the topic offer.
+  /// What all publishers of the topic offer; the least where there are none.
   OfferedQuality quality_of(const std::string& topic) const;
 
  private:

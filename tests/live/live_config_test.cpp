@@ -39,7 +39,7 @@ TEST(LiveConfig, TakesASpecAndRejectsItsSettingsWithoutEffect) {
 
 TEST(LiveConfig, EveryRobotFileLoads) {
   LiveOptions options;
-  for (const char* robot : {"simulated", "go2", "ouster", "livox"}) {
+  for (const char* robot : {"simulated", "anymal", "go2", "ouster", "livox"}) {
     options.robot = robot;
     options.overrides = {"recording.topics.imu=/mine"};
     const auto config = load_live_config(options);
@@ -50,8 +50,9 @@ TEST(LiveConfig, EveryRobotFileLoads) {
   options.robot = "go3";
   const auto config = load_live_config(options);
   ASSERT_FALSE(config);
-  EXPECT_NE(config.error().message.find("expected go2, livox, ouster, simulated or a .yaml"),
-            std::string::npos)
+  EXPECT_NE(
+      config.error().message.find("expected anymal, go2, livox, ouster, simulated or a .yaml"),
+      std::string::npos)
       << config.error().message;
 }
 

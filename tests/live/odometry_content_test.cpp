@@ -84,5 +84,29 @@ TEST(OdometryOf, CovariancesAreThoseOfTheQuantitiesOfTheMessage) {
   EXPECT_TRUE(content.angular_velocity.isApprox(motion.angular_velocity));
 }
 
+TEST(PlacedAt, TurnsWhatIsInTheFrameAndLeavesWhatIsInTheBody) {
+  MotionEstimate motion;
+  motion.T_odom_body = {so3_exp(Eigen::Vector3d(0.3, -0.5, 1.9)), Eigen::Vector3d(4.0, -2.0, 0.3)};
+  motion.velocity = {0.9, -0.4, 0.1};
+  Eigen::Matrix<double, 9, 9> root;
+  for (int i = 0; i < 81; ++i) root(i / 9, i % 9) = 0.01 * ((i * 37) % 19 - 9);
+  motion.covariance = root * root.transpose();
+  Pose tilted = motion.T_odom_body;
+  tilted.translation = {10.0, 20.0, 1.0};
+  const Pose T = level(tilted);
+  EXPECT_NEAR((T.R() * Eigen::Vector3d::UnitZ() - Eigen::Vector3d::UnitZ()).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((T.R().transpose() * tilted.R().col(0)).y(), 0.0, 1e-12) << "the same heading";
+
+  const OdometryContent before = odometry_of(motion);
+  const OdometryContent after = odometry_of(placed_at(T, motion));
+  Eigen::Matrix<double, 6, 6> turn = Eigen::Matrix<double, 6, 6>::Zero();
+  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = T.R();
+  EXPECT_LT((after.pose.translation - T * before.pose.translation).norm(), 1e-12);
+  EXPECT_LT((after.pose_covariance - turn * before.pose_covariance * turn.transpose()).norm(),
+            1e-12);
+  EXPECT_LT((after.linear_velocity - before.linear_velocity).norm(), 1e-12);
+  EXPECT_LT((after.twist_covariance - before.twist_covariance).norm(), 1e-12);
+}
+
 }  // namespace
 }  // namespace aims

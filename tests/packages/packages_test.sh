@@ -21,7 +21,7 @@ libraries=$(echo "$work"/libaims-dev_*.deb)
 node=()  # only where ROS is installed
 if [ -e "$build/live/aims_node" ]; then node=("$work"/aims-node_*.deb); fi
 live=()  # only where CycloneDDS is installed
-if [ -e "$build/live/aims_live" ] && [ -e "$build/live/aims_play" ]; then live=("$work"/aims-live_*.deb); fi
+if [ -e "$build/aims_live" ] && [ -e "$build/aims_play" ]; then live=("$work"/aims-live_*.deb); fi
 python=()  # only where Python's headers are
 if [ -e "$build/python/aims/py.typed" ]; then python=("$work"/python3-aims_*.deb); fi
 simulation=()
@@ -51,7 +51,7 @@ if [ ${#node[@]} -gt 0 ]; then
   grep -qE '\.hpp$|\.a$|\.yaml$' "$work/contents" && fail "what a robot does not need is in ${node[0]}"
 fi
 if [ ${#live[@]} -gt 0 ]; then
-  contents "${live[0]}" bin/aims_live bin/aims_play share/doc/aims-live/copyright \
+  contents "${live[0]}" bin/aims_live bin/aims_play bin/aims_watch share/doc/aims-live/copyright \
     share/doc/aims-live/aims-live.service share/aims-live/robots/go2.yaml
   grep -qE '\.hpp$|\.a$|scenarios' "$work/contents" && fail "what a robot does not need is in ${live[0]}"
 fi

@@ -37,6 +37,7 @@ file(WRITE ${OUT}/page.d "${OUT}/page.html: \\\n  ${inputs}\n")
 file(READ ${OUT}/modules.stamp installed)
 if(NOT installed STREQUAL "installed\n")
   file(WRITE ${OUT}/page.html "")
+  file(WRITE ${OUT}/watch.html "")
   return()
 endif()
 execute_process(COMMAND ${NODE} ${WEB}/build.mjs --modules ${OUT}/node_modules --out ${OUT}

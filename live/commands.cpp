@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/commands.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <csignal>
+#include <utility>
+
+#include "core/text.hpp"
+#include "live/live_session.hpp"
+#include "recordings/messages/message_decoder.hpp"
+#include "recordings/messages/message_types.hpp"
+
+namespace aims {
+namespace {
+
+std::atomic<bool> signalled_save{false};
+std::atomic<bool> signalled_calibrate{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+/// The text of a std_msgs/String; empty for what is none.
+std::string text_of(const LiveMessage& message) {
+  std::string definition = message.connection->definition;
+  MessageFormat format = message.connection->cdr ? kRos2Format : kRos1Format;
+  if (message.connection->cdr) complete_definition("std_msgs/String", definition, format);
+  const auto decoder = MessageDecoder::create("std_msgs/String", definition, format);
+  if (!decoder) return {};
+  const auto view = decoder->decode(message.data);
+  return view ? std::string(view->text("data").value_or("")) : "";
+}
+
+}  // namespace
+
+Commands::Commands(Transport& transport)
+    : transport_(transport), topic_(transport.resolved("~command")) {
+  std::signal(SIGUSR1, [](int) { signalled_save = true; });
+  std::signal(SIGUSR2, [](int) { signalled_calibrate = true; });
+  transport_.subscribe(topic_, "std_msgs/String");
+}
+
+std::optional<LiveMessage> Commands::wait(double seconds) {
+  auto message = transport_.wait(seconds);
+  while (message && message->connection->topic == topic_) {
+    take(*message);
+    message = transport_.wait(0.0);
+  }
+  take_signals();
+  return message;
+}
+
+void Commands::take_signals() {
+  if (signalled_save.exchange(false)) save_map();
+  if (signalled_calibrate.exchange(false)) restart_ = LiveRequest::kCalibrate;
+}
+
+void Commands::take(const LiveMessage& message) {
+  const std::string text = text_of(message);
+  if (text == "reset") {
+    restart_ = LiveRequest::kReset;
+  } else if (text == "calibrate") {
+    restart_ = LiveRequest::kCalibrate;
+  } else if (text == "save_map") {
+    save_map();
+  } else {
+    print_line(fmt::format("warning: {}: expected reset, calibrate or save_map, got '{}'", topic_,
+                           line_text(text)));
+  }
+}
+
+void Commands::save_map() const {
+  if (save_) return save_();
+  print_line("warning: save_map: no map yet");
+}
+
+bool Commands::restarts() const { return restart_.has_value(); }
+std::optional<LiveRequest> Commands::take_restart() { return std::exchange(restart_, {}); }
+
+}  // namespace aims

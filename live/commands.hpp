@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "live/transport.hpp"
+
+namespace aims {
+
+/// Ways to start anew.
+enum class LiveRequest {
+  kReset,      ///< start anew, at the origin
+  kCalibrate,  ///< start anew where it is: the robot stands, gravity and gyro bias are averaged
+};
+
+/// Requests to a running estimate: std_msgs/String on ~command ("reset", "calibrate", "save_map"),
+/// or a signal, SIGUSR1 to save the map, SIGUSR2 to calibrate.
+class Commands {
+ public:
+  /// Subscribes, and takes the signals of the process.
+  explicit Commands(Transport& transport);
+
+  /// The next message that is no command, as `Transport::wait`.
+  std::optional<LiveMessage> wait(double seconds);
+
+  /// Whether the estimate is to start anew.
+  bool restarts() const;
+  /// The request to start anew, once; none: there is none.
+  std::optional<LiveRequest> take_restart();
+  /// What saves the map, called by `wait`; empty: there is no map yet.
+  void on_save_map(std::function<void()> save) { save_ = std::move(save); }
+
+ private:
+  void take(const LiveMessage& message);
+  void take_signals();
+  void save_map() const;
+
+  Transport& transport_;
+  std::string topic_;
+  std::optional<LiveRequest> restart_;
+  std::function<void()> save_;
+};
+
+}  // namespace aims

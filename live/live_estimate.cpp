@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/live_estimate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "live/live_session.hpp"
+#include "live/odometry_content.hpp"
+
+namespace aims {
+namespace {
+
+/// Record time of one batch of deliveries.
+constexpr Duration kBatch = 5 * kMillisecond;
+constexpr Duration kMapPeriod = 5 * kSecond;  ///< of the published map
+// Of what a crash leaves behind [s].
+constexpr double kSummaryPeriod = 10.0;
+constexpr double kMapFilePeriod = 60.0;
+
+void print_counts(const std::map<std::string, int>& counts) {
+  for (const auto& [event, count] : counts) print_line(fmt::format("note: {}: {}", event, count));
+}
+
+}  // namespace
+
+LiveEstimate::LiveEstimate(Transport& transport, Publications& publications,
+                           RecordingReader& reader, Estimator& estimator, LiveLog log,
+                           LiveStart start)
+    : transport_(transport),
+      publications_(publications),
+      reader_(reader),
+      estimator_(estimator),
+      source_(dynamic_cast<const MotionSource*>(&estimator)),
+      log_(std::move(log)),
+      start_(std::move(start)),
+      moved_(start_.T_odom_start.translation.norm() > 0.0 ||
+             start_.T_odom_start.rotation.vec().norm() > 0.0) {}
+
+Result<void> LiveEstimate::run() {
+  if (auto ok = log_.save_summary(reader_, estimator_.result(), false); !ok) return ok;
+  std::vector<Delivery> deliveries;
+  bool more = true;
+  while (more) {
+    const auto advanced = reader_.advance(kBatch, deliveries);
+    if (!advanced) return tl::unexpected(advanced.error());
+    more = *advanced;
+    for (const Delivery& delivery : deliveries) {
+      if (auto ok = take(delivery); !ok) return ok;
+    }
+    deliveries.clear();
+    for (const std::string& problem : transport_.take_problems()) {
+      print_line("warning: " + problem);
+    }
+    if (auto ok = save_now_and_then(); !ok) return ok;
+  }
+  estimator_.finish();
+  if (auto ok = take_rows(); !ok) return ok;
+  if (auto ok = log_.save_map(placed(estimator_.map_points())); !ok) return ok;
+  return log_.save_summary(reader_, estimator_.result(), true);
+}
+
+Result<void> LiveEstimate::take(const Delivery& delivery) {
+  // The deliveries of a batch arrived within 5 ms; their own arrivals are on the stamps' clock.
+  timing_.arrived(delivery, reader_.summary().start + reader_.position());
+  estimator_.consume(delivery);
+  const bool inertial = std::holds_alternative<ImuSample>(delivery.measurement);
+  if (inertial && source_ != nullptr && publications_.fast_heard()) {
+    if (const auto motion = source_->motion(std::numeric_limits<Time>::max())) {
+      publications_.fast(placed_at(start_.T_odom_start, *motion));
+    }
+  }
+  return take_rows();
+}
+
+Result<void> LiveEstimate::take_rows() {
+  const EstimatorResult& result = estimator_.result();
+  const auto new_poses = std::span(result.trajectory).subspan(taken_poses_);
+  const auto new_health = std::span(result.health).subspan(taken_health_);
+  if (new_poses.empty() && new_health.empty()) return {};
+  std::vector<StampedPose> poses(new_poses.begin(), new_poses.end());
+  for (StampedPose& pose : poses) {
+    if (moved_) pose.pose = start_.T_odom_start * pose.pose;
+    auto motion = source_ != nullptr ? source_->motion(pose.stamp) : std::nullopt;
+    if (motion && moved_) motion = placed_at(start_.T_odom_start, *motion);
+    publications_.pose(pose, motion);
+    timing_.published(pose.stamp);
+    last_ = pose;
+  }
+  if (!poses.empty()) publish_points(poses.back().stamp);
+  std::vector<HealthRow> health(new_health.begin(), new_health.end());
+  publish_health(health);
+  poses_ += poses.size();
+  if (auto ok = log_.add(poses, health); !ok) return ok;
+  // All rows are taken; the estimator forgets them, so that memory does not grow.
+  estimator_.forget_rows();
+  taken_poses_ = result.trajectory.size();
+  taken_health_ = result.health.size();
+  return {};
+}
+
+/// Adds what the reading knows to the reasons; publishes, and prints where they change.
+void LiveEstimate::publish_health(std::vector<HealthRow>& rows) {
+  for (HealthRow& row : rows) {
+    std::vector<std::string> reasons = start_.clocks->differing();
+    for (const ReadingWarning& each : start_.warnings) reasons.push_back(each.reason);
+    if (row.state != HealthState::kStarting && !reasons.empty()) {
+      row.state = std::max(row.state, HealthState::kDegraded);
+      row.reasons.insert(row.reasons.end(), reasons.begin(), reasons.end());
+    }
+    const auto [scans, samples] = timing_.rates();
+    publications_.health(row, {{"messages dropped", fmt::format("{}", transport_.dropped())},
+                               {"messages lost", fmt::format("{}", transport_.lost())},
+                               {"scans per second", fmt::format("{:.1f}", scans)},
+                               {"IMU samples per second", fmt::format("{:.0f}", samples)},
+                               {"latency median [ms]", fmt::format("{}", timing_.quantile(0.5))},
+                               {"latency 99 % [ms]", fmt::format("{}", timing_.quantile(0.99))}});
+    if (printed_ && row.state == printed_->state && row.reasons == printed_->reasons) continue;
+    print_line(fmt::format("health at {:.1f} s: {}{}{}", to_seconds(row.stamp), name_of(row.state),
+                           row.reasons.empty() ? "" : ": ", fmt::join(row.reasons, "; ")));
+    printed_ = row;
+  }
+}
+
+std::vector<Eigen::Vector3f> LiveEstimate::placed(std::vector<Eigen::Vector3f> points) const {
+  if (!moved_) return points;
+  for (Eigen::Vector3f& point : points) {
+    point = (start_.T_odom_start * point.cast<double>()).cast<float>();
+  }
+  return points;
+}
+
+void LiveEstimate::publish_points(Time stamp) {
+  if (source_ != nullptr && publications_.cloud_heard()) {
+    publications_.cloud(stamp, placed(source_->registered_points()));
+  }
+  if (stamp < next_map_ || !publications_.map_heard()) return;
+  publications_.map(stamp, placed(estimator_.map_points()));
+  next_map_ = stamp + kMapPeriod;
+}
+
+/// What a crash is to leave behind besides the rows.
+Result<void> LiveEstimate::save_now_and_then() {
+  if (log_.folder().empty() || since_summary_.seconds() < kSummaryPeriod) return {};
+  since_summary_ = Stopwatch();
+  if (since_map_.seconds() > kMapFilePeriod) {
+    since_map_ = Stopwatch();
+    if (auto ok = log_.save_map(placed(estimator_.map_points())); !ok) return ok;
+  }
+  return log_.save_summary(reader_, estimator_.result(), false);
+}
+
+void LiveEstimate::save_map() {
+  if (log_.folder().empty()) return print_line("warning: save_map: expected --out FOLDER");
+  const auto points = placed(estimator_.map_points());
+  const auto saved = log_.save_map(points);
+  print_line(saved ? fmt::format("map: {} points in {}", points.size(), log_.folder().string())
+                   : "warning: save_map: " + saved.error().message);
+}
+
+void LiveEstimate::print_summary(bool source_time) const {
+  print_counts(reader_.counts());
+  print_counts(estimator_.result().counts);
+  const std::size_t dropped = transport_.dropped();
+  if (dropped > 0)
+    print_line(fmt::format("note: {} messages dropped, since the node was too slow", dropped));
+  const std::size_t lost = transport_.lost();
+  if (lost > 0) print_line(fmt::format("note: {} messages lost by the network", lost));
+  print_line(fmt::format("{} poses", poses_));
+  if (source_time || timing_.scans() == 0) return;
+  print_line(fmt::format("from the arrival of a scan to its odometry: median {} ms, 99 % {} ms",
+                         timing_.quantile(0.5), timing_.quantile(0.99)));
+}
+
+}  // namespace aims

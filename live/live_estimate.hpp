@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/stopwatch.hpp"
+#include "estimator/estimator.hpp"
+#include "estimator/motion.hpp"
+#include "live/clock_watch.hpp"
+#include "live/commands.hpp"
+#include "live/live_log.hpp"
+#include "live/publications.hpp"
+#include "live/scan_timing.hpp"
+#include "recordings/stream/recording_reader.hpp"
+
+namespace aims {
+
+/// How an estimate begins, and who watches it.
+struct LiveStart {
+  Pose T_odom_start;                     ///< its start in the frame of what is published
+  const ClockWatch* clocks = nullptr;    ///< of its topics
+  std::vector<ReadingWarning> warnings;  ///< their reasons are in its health
+};
+
+/// One estimator on live topics, from its start to its end: it publishes, prints and logs.
+class LiveEstimate {
+ public:
+  LiveEstimate(Transport& transport, Publications& publications, RecordingReader& reader,
+               Estimator& estimator, LiveLog log, LiveStart start);
+
+  /// Estimates until the reader ends, then processes what the estimator has queued and completes
+  /// the log. Error when the log cannot be written.
+  Result<void> run();
+
+  /// Writes the map to the log and prints where.
+  void save_map();
+
+  /// The last pose, as published; none: nothing.
+  const std::optional<StampedPose>& last() const { return last_; }
+
+  /// Prints what was odd, and how long scans took unless `source_time`.
+  void print_summary(bool source_time) const;
+
+ private:
+  Result<void> take(const Delivery& delivery);
+  Result<void> take_rows();
+  void publish_health(std::vector<HealthRow>& rows);
+  void publish_points(Time stamp);
+  Result<void> save_now_and_then();
+  std::vector<Eigen::Vector3f> placed(std::vector<Eigen::Vector3f> points) const;
+
+  Transport& transport_;
+  Publications& publications_;
+  RecordingReader& reader_;
+  Estimator& estimator_;
+  const MotionSource* source_;  ///< none: an estimator without
+  LiveLog log_;
+  LiveStart start_;
+  bool moved_;  ///< whether it does not start at the origin
+  ScanTiming timing_;
+  std::optional<StampedPose> last_;
+  std::optional<HealthRow> printed_;
+  Time next_map_ = 0;
+  std::size_t taken_poses_ = 0;
+  std::size_t taken_health_ = 0;
+  std::size_t poses_ = 0;
+  Stopwatch since_summary_;
+  Stopwatch since_map_;
+};
+
+}  // namespace aims
