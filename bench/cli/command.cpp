@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <exception>
 
 #include "bench/cli/exit_code.hpp"
 #include "bench/cli/json_output.hpp"
@@ -217,7 +218,9 @@ const CLI::App& Command::program() const {
   return *app;
 }
 
-int run_program(const Program& program, int argc, char** argv) {
+namespace {
+
+int run_commands(const Program& program, int argc, char** argv) {
   int exit_code = kOk;
   CLI::App app(program.description, program.name);
   app.footer(program.footer);
@@ -233,6 +236,27 @@ int run_program(const Program& program, int argc, char** argv) {
   }
   const int parsed = parse(app, argc, argv);
   return parsed == kOk ? exit_code : parsed;
+}
+
+}  // namespace
+
+int run_program(const Program& program, int argc, char** argv) {
+  try {
+    const int exit_code = run_commands(program, argc, argv);
+    if (const auto finished = finish_output(); !finished) {
+      print_error(fmt::format("{}: {}", program.name, finished.error().message));
+      return exit_code == kOk ? kBadInput : exit_code;
+    }
+    return exit_code;
+  } catch (const std::filesystem::filesystem_error& error) {
+    // A path that cannot be followed, e.g. a loop of links or a name that is too long.
+    print_error(
+        fmt::format("{}: {}: {}", program.name, error.path1().string(), error.code().message()));
+    return kBadInput;
+  } catch (const std::exception& error) {
+    print_error(fmt::format("{}: internal error: {}", program.name, error.what()));
+    return kInternal;
+  }
 }
 
 }  // namespace aims

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
-
 #include <array>
-#include <exception>
 #include <filesystem>
 
 #include "bench/cli/commands.hpp"
-#include "bench/cli/exit_code.hpp"
-#include "bench/cli/terminal.hpp"
 #include "bench/run/catalogue.hpp"
 
 namespace {
@@ -78,23 +73,8 @@ constexpr const char* kFooter =
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    const auto scenarios =
-        aims::default_scenario_folder(std::filesystem::read_symlink("/proc/self/exe"));
-    const aims::Program program = {"aims",    kDescription, kFooter, "aims " AIMS_VERSION,
-                                   kCommands, scenarios};
-    const int exit_code = aims::run_program(program, argc, argv);
-    if (const auto finished = aims::finish_output(); !finished) {
-      aims::print_error("aims: " + finished.error().message);
-      return exit_code == aims::kOk ? aims::kBadInput : exit_code;
-    }
-    return exit_code;
-  } catch (const std::filesystem::filesystem_error& error) {
-    // A path that cannot be followed, e.g. a loop of links or a name that is too long.
-    aims::print_error(fmt::format("aims: {}: {}", error.path1().string(), error.code().message()));
-    return aims::kBadInput;
-  } catch (const std::exception& error) {
-    aims::print_error(fmt::format("aims: internal error: {}", error.what()));
-    return aims::kInternal;
-  }
+  const auto scenarios =
+      aims::default_scenario_folder(std::filesystem::read_symlink("/proc/self/exe"));
+  return aims::run_program(
+      {"aims", kDescription, kFooter, "aims " AIMS_VERSION, kCommands, scenarios}, argc, argv);
 }
