@@ -49,12 +49,12 @@ void print_scenarios(const Suite& suite) {
 
 void print_matrices(const Suite& suite) {
   print_out("Median [95 % bootstrap interval] worst, over seeds\n\n");
-  for (const HeadlineScore& score : kHeadlineScores) {
+  for (const Score& score : headline_scores()) {
     const std::string key = score.key;
     if (key == "max_error_z_m" || key == "m_end_m") continue;  // in suite.md
     print_matrix(fmt::format("{} [{}]", score.title, score.unit), headline_table(suite, score));
   }
-  for (const SuccessScore& score : kSuccessScores) {
+  for (const Score& score : success_scores()) {
     print_matrix(fmt::format("Success {} of the distance, with 95 % interval", score.title),
                  success_table(suite, score));
   }

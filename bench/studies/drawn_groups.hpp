@@ -24,7 +24,7 @@ struct GroupScores {
   std::size_t runs = 0;  ///< valid ones in which it finished
   std::size_t successes = 0;
   SuccessRate strict;                          ///< within 1 %
-  std::vector<std::optional<double>> medians;  ///< in the order of `kHeadlineScores`
+  std::vector<std::optional<double>> medians;  ///< in the order of `headline_scores()`
 };
 
 /// Runs of one scenario whose drawn value is the same or lies in one bin.

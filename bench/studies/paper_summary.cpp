@@ -52,7 +52,7 @@ Json system_json(const PaperSystem& system) {
   for (const PaperCell& cell : system.cells) cells.push_back(cell_json(cell));
   Json headline = Json::object();
   for (std::size_t i = 0; i < system.headline.size(); ++i) {
-    headline[kHeadlineScores[i].key] = json_of(system.headline[i]);
+    headline[headline_scores()[i].key] = json_of(system.headline[i]);
   }
   const Interval interval = wilson_interval(system.successes, system.runs);
   return {{"estimator", system.estimator},
@@ -122,9 +122,10 @@ std::string paper_markdown(const std::vector<PaperExperiment>& experiments, cons
 TextTable system_table(const PaperExperiment& experiment) {
   TextTable table;
   table.header = {"system", "in the paper"};
-  for (const SuccessScore& score : kSuccessScores) table.header.emplace_back(score.title);
+  for (const Score& score : success_scores()) table.header.emplace_back(score.title);
   for (std::size_t i = 0; i < kPaperHeadline; ++i) {
-    table.header.push_back(fmt::format("{} {}", kHeadlineScores[i].title, kHeadlineScores[i].unit));
+    table.header.push_back(
+        fmt::format("{} {}", headline_scores()[i].title, headline_scores()[i].unit));
   }
   for (const PaperOrder& order : experiment.orders) table.header.push_back(order.score.title);
   for (const PaperSystem& system : experiment.systems) {
@@ -134,7 +135,7 @@ TextTable system_table(const PaperExperiment& experiment) {
                                     system.strict.text()};
     for (std::size_t i = 0; i < system.headline.size(); ++i) {
       row.push_back(system.headline[i]
-                        ? fmt::format("{:.{}f}", *system.headline[i], kHeadlineScores[i].digits)
+                        ? fmt::format("{:.{}f}", *system.headline[i], headline_scores()[i].digits)
                         : "–");
     }
     for (const PaperCell& cell : system.cells) row.push_back(paper_cell_text(cell, in_paper));

@@ -28,8 +28,8 @@ Json scores_json(std::span<const RunRecord> runs, const std::string& estimator) 
     Json score = {{"median", json_of(summary.median)},
                   {"worst", json_of(summary.worst)},
                   {"count", summary.count}};
-    const bool headline = std::any_of(kHeadlineScores.begin(), kHeadlineScores.end(),
-                                      [&](const HeadlineScore& each) { return each.key == key; });
+    const bool headline = std::any_of(headline_scores().begin(), headline_scores().end(),
+                                      [&](const Score& each) { return each.key == key; });
     if (headline) {
       const Interval interval = median_interval(runs, estimator, key);
       score["median_low"] = json_of(interval.low);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/studies/run_folder.hpp"
-
-#include <fmt/format.h>
+#include "bench/studies/written_runs.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <system_error>
 
 #include "bench/jobs/sequence_cache.hpp"
@@ -18,6 +17,7 @@
 #include "core/files/manifest.hpp"
 
 namespace aims {
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/run/results.hpp"
+#include "bench/run/estimator_files.hpp"
 
 #include <utility>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/run/ring_notes.hpp"
+#include "bench/run/simulated_rings.hpp"
 
 #include "core/angle.hpp"
 #include "estimator/estimator_spec.hpp"

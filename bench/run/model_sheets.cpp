@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/run/lidar_sheet.hpp"
-
-#include <fmt/format.h>
+#include "bench/run/model_sheets.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
-#include "bench/run/model_file.hpp"
+#include "sim/robot/robot_config.hpp"
 #include "sim/sensors/scan_pattern.hpp"
 
 namespace aims {
+
 namespace {
 
 std::string mode_error(std::string_view key, const LidarConfig& config,
@@ -69,6 +69,25 @@ std::string lidar_summary(const LidarSheet& sheet, const LidarConfig& config) {
   return fmt::format("{}: {} {}, {:.0f} k points/s, {:g} to {:g} m{}", sheet.description,
                      pattern.lines(), pattern.has_rings() ? "rings" : "lines of a rosette",
                      1e-3 * points_per_second(config), config.range_min, config.range_max, imu);
+}
+
+void describe(Fields& f, RobotSheet& s) {
+  f.text("description", s.description, {.meaning = "class and place of the LiDAR"});
+  f.number("mass", s.mass, {.unit = "kg", .range = positive_up_to(1e3), .meaning = "in all"});
+}
+
+Result<RobotSheet> apply_robot_model(std::string_view model, SensorLevel level,
+                                     SimulationConfig& config) {
+  const auto found = robot_model(model);
+  if (!found) return tl::unexpected(found.error());
+  const std::string file = fmt::format("models/{}/robot.yaml", model);
+  return apply_model_file<RobotSheet>(found->text, file, level, config);
+}
+
+std::string robot_summary(const RobotSheet& sheet, const SimulationConfig& config) {
+  const LegGeometry& legs = config.robot.legs;
+  return fmt::format("{}: {:g} kg, legs of {:g} + {:g} m, trunk at {:g} m", sheet.description,
+                     sheet.mass, legs.thigh, legs.calf, config.robot.gait.body_height);
 }
 
 }  // namespace aims

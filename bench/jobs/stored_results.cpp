@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/jobs/results.hpp"
-
-#include <fmt/format.h>
+#include "bench/jobs/stored_results.hpp"
 
 #include <algorithm>
 #include <charconv>
+#include <fmt/format.h>
 #include <utility>
 
 #include "bench/jobs/job_store.hpp"
 #include "bench/run/json_text.hpp"
-#include "bench/run/json_values.hpp"
 #include "bench/run/validity.hpp"
 #include "core/files/atomic_file.hpp"
 
 namespace aims {
+
 namespace {
 
 namespace fs = std::filesystem;
