@@ -5,17 +5,17 @@
 #include <string>
 
 #include "bench/cli/commands.hpp"
-#include "bench/cli/draw_display.hpp"
 #include "bench/cli/json_output.hpp"
 #include "bench/cli/options.hpp"
+#include "bench/cli/progress.hpp"
 #include "bench/cli/suite_options.hpp"
 #include "bench/cli/terminal.hpp"
 #include "bench/run/score_table.hpp"
 #include "bench/studies/families.hpp"
-#include "bench/studies/run_folder.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "bench/studies/suite_tables.hpp"
-#include "render/results/family_pictures.hpp"
+#include "bench/studies/written_runs.hpp"
+#include "render/results/study_pictures.hpp"
 
 namespace aims {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/cli/suite_options.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 #include <numeric>
 #include <set>
 #include <string>
@@ -10,7 +10,7 @@
 
 #include "bench/cli/progress.hpp"
 #include "bench/cli/terminal.hpp"
-#include "bench/run/ring_notes.hpp"
+#include "bench/run/simulated_rings.hpp"
 
 namespace aims {
 

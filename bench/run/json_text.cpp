@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/run/json_text.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <system_error>
 
 #include "core/files/atomic_file.hpp"
@@ -80,14 +80,6 @@ Result<Json> read_json_of(const fs::path& file, std::string_view schema) {
   if (!json) return json;
   if (text_in(*json, "schema") == schema) return json;
   return failure(fmt::format("{}: expected a document of schema {}", file.string(), schema));
-}
-
-std::string folder_name(const fs::path& folder) {
-  std::error_code ignored;
-  fs::path full = fs::weakly_canonical(folder, ignored);
-  if (ignored) full = folder;
-  if (!full.has_filename()) full = full.parent_path();
-  return full.filename().string();
 }
 
 }  // namespace aims

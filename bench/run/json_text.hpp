@@ -8,7 +8,6 @@
 #include <string_view>
 #include <type_traits>
 
-#include "bench/run/score_record.hpp"
 #include "core/error.hpp"
 
 namespace aims {
@@ -57,8 +56,5 @@ std::optional<double> number_in(const Json& json, const std::string& key);
 
 /// Reads a JSON document of that schema. Error with the file and what was expected.
 Result<Json> read_json_of(const std::filesystem::path& file, std::string_view schema);
-
-/// The last part of a folder's path, as its name in titles; "." and links are followed.
-std::string folder_name(const std::filesystem::path& folder);
 
 }  // namespace aims

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/run/model_sheets.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "sim/robot/robot_config.hpp"
 #include "sim/sensors/scan_pattern.hpp"

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "bench/run/json_values.hpp"
+#include "bench/run/json_text.hpp"
 #include "bench/run/score_statistics.hpp"
 #include "bench/run/validity.hpp"
 

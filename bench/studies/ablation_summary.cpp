@@ -3,9 +3,9 @@
 
 #include "bench/run/code_version.hpp"
 #include "bench/run/json_text.hpp"
+#include "bench/run/report.hpp"
 #include "bench/run/score_record.hpp"
 #include "bench/studies/ablation.hpp"
-#include "core/files/atomic_file.hpp"
 #include "core/files/csv.hpp"
 
 namespace aims {
@@ -155,13 +155,11 @@ TextTable case_table(const AblationCase& each) {
 
 Result<void> write_ablation(const Ablation& ablation, const Suite& suite,
                             const std::filesystem::path& folder) {
-  auto written = write_file_atomically(folder / "ablation.md", markdown_of(ablation, suite));
-  if (written) written = write_csv(folder / "ablation.csv", csv_of(ablation));
-  if (written) {
-    written = write_file_atomically(folder / "ablation.json",
-                                    json_text(ablation_json(ablation, suite), 2) + "\n");
-  }
-  return written;
+  return write_report({.name = "ablation",
+                       .markdown = markdown_of(ablation, suite),
+                       .csv = csv_of(ablation),
+                       .json = ablation_json(ablation, suite)},
+                      folder);
 }
 
 }  // namespace aims

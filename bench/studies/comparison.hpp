@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/jobs/results.hpp"
+#include "bench/jobs/stored_results.hpp"
 #include "bench/metrics/paired_test.hpp"
 #include "bench/metrics/proportion.hpp"
 #include "bench/run/score_record.hpp"

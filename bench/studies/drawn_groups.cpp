@@ -7,12 +7,11 @@
 #include <map>
 #include <set>
 #include <span>
-#include <system_error>
 
 #include "bench/run/json_text.hpp"
+#include "bench/run/report.hpp"
 #include "bench/run/validity.hpp"
 #include "core/config.hpp"
-#include "core/files/atomic_file.hpp"
 
 namespace aims {
 namespace {
@@ -224,16 +223,12 @@ Json groups_json(const std::vector<DrawnGroup>& groups, const std::string& key,
 
 Result<void> write_groups(const std::vector<DrawnGroup>& groups, const std::string& key,
                           const std::string& source, const fs::path& folder) {
-  std::error_code code;
-  fs::create_directories(folder, code);
-  if (code) return failure(fmt::format("{}: {}", folder.string(), code.message()));
-  auto written = write_file_atomically(folder / "groups.json",
-                                       json_text(groups_json(groups, key, source), 2) + "\n");
-  if (written) written = write_csv(folder / "groups.csv", groups_csv(groups));
-  if (!written) return written;
-  return write_file_atomically(
-      folder / "groups.md",
-      fmt::format("# {} by {}\n\n{}", source, key, to_markdown(groups_table(groups))));
+  return write_report(
+      {.name = "groups",
+       .markdown = fmt::format("# {} by {}\n\n{}", source, key, to_markdown(groups_table(groups))),
+       .csv = groups_csv(groups),
+       .json = groups_json(groups, key, source)},
+      folder);
 }
 
 }  // namespace aims

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/jobs/results.hpp"
+#include "bench/jobs/stored_results.hpp"
 #include "bench/run/score_statistics.hpp"
 #include "core/error.hpp"
 #include "core/files/csv.hpp"

@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include "bench/run/json_text.hpp"
+#include "bench/run/report.hpp"
 #include "bench/run/score_statistics.hpp"
 #include "bench/studies/paper_study.hpp"
-#include "core/files/atomic_file.hpp"
 #include "core/files/csv.hpp"
 
 namespace aims {
@@ -164,13 +164,11 @@ Json paper_json(const std::vector<PaperExperiment>& experiments) {
 
 Result<void> write_paper(const std::vector<PaperExperiment>& experiments, const Suite& suite,
                          const fs::path& folder) {
-  auto written =
-      write_file_atomically(folder / "paper.json", json_text(paper_json(experiments), 2) + "\n");
-  if (written) written = write_csv(folder / "paper.csv", paper_csv(experiments));
-  if (written) {
-    written = write_file_atomically(folder / "paper.md", paper_markdown(experiments, suite));
-  }
-  return written;
+  return write_report({.name = "paper",
+                       .markdown = paper_markdown(experiments, suite),
+                       .csv = paper_csv(experiments),
+                       .json = paper_json(experiments)},
+                      folder);
 }
 
 }  // namespace aims

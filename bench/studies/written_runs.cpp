@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/studies/written_runs.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 #include <system_error>
 
 #include "bench/jobs/sequence_cache.hpp"
+#include "bench/run/estimator_files.hpp"
 #include "bench/run/json_text.hpp"
-#include "bench/run/results.hpp"
 #include "bench/run/score_record.hpp"
 #include "bench/run/sequence.hpp"
 #include "bench/run/summary.hpp"
@@ -102,12 +102,9 @@ Json run_scores(const Scenario& scenario, const RunRecord& record) {
 
 Json run_json(const Suite& suite, const fs::path& out) {
   const SuiteCase& only = suite.cases.front();
-  Json json = {{"schema", "aims.run/1"},
-               {"scenario", only.scenario.name},
-               {"out", out.string()},
-               {"complete", suite.complete},
-               {"runs", Json::array()},
-               {"failures", failures_json(suite)}};
+  Json json = {{"schema", "aims.run/1"}, {"scenario", only.scenario.name},
+               {"out", out.string()},    {"complete", suite.complete},
+               {"runs", Json::array()},  {"failures", failures_json(suite)}};
   for (const RunRecord& run : only.runs) json["runs"].push_back(run_scores(only.scenario, run));
   return json;
 }

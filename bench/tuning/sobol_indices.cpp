@@ -225,8 +225,7 @@ std::optional<FractionalIndices> fitted(const Levels& levels, const Eigen::Vecto
   for (Eigen::Index row = 0; row < rows; ++row) {
     const Eigen::VectorXi point = levels.of.row(row).transpose();
     for (const Term& term : terms) {
-      design.row(row).segment(term.begin, term.size) =
-          columns_of(term, levels, point).transpose();
+      design.row(row).segment(term.begin, term.size) = columns_of(term, levels, point).transpose();
     }
   }
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(design);
@@ -235,8 +234,7 @@ std::optional<FractionalIndices> fitted(const Levels& levels, const Eigen::Vecto
   const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(rows, columns);
   const Eigen::VectorXd leverage = q.rowwise().squaredNorm();
   if (leverage.maxCoeff() > 1.0 - 1e-9) return std::nullopt;  // a point that no other predicts
-  const Eigen::ArrayXd left_out =
-      (values - design * effects).array() / (1.0 - leverage.array());
+  const Eigen::ArrayXd left_out = (values - design * effects).array() / (1.0 - leverage.array());
   const double scatter = (values.array() - values.mean()).square().sum();
   FractionalIndices result;
   result.explained = scatter > 0.0 ? 1.0 - left_out.square().sum() / scatter : 0.0;

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/jobs/results.hpp"
+#include "bench/jobs/stored_results.hpp"
 #include "bench/metrics/bootstrap.hpp"
 #include "core/error.hpp"
 #include "core/files/table.hpp"

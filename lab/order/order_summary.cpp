@@ -5,9 +5,9 @@
 #include <set>
 
 #include "bench/run/json_text.hpp"
-#include "lab/order/order_study.hpp"
-#include "core/files/atomic_file.hpp"
+#include "bench/run/report.hpp"
 #include "core/files/csv.hpp"
+#include "lab/order/order_study.hpp"
 
 namespace aims {
 namespace {
@@ -160,16 +160,11 @@ std::string summary_text(const OrderStudy& study) {
 
 Result<void> write_order(const OrderStudy& study, const std::string& source,
                          const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) return failure(fmt::format("{}: {}", folder.string(), error.message()));
-  auto written =
-      write_file_atomically(folder / "order.json", json_text(order_json(study, source), 2) + "\n");
-  if (written) written = write_csv(folder / "order.csv", order_csv(study));
-  if (written) {
-    written = write_file_atomically(folder / "order.md", order_markdown(study, source));
-  }
-  return written;
+  return write_report({.name = "order",
+                       .markdown = order_markdown(study, source),
+                       .csv = order_csv(study),
+                       .json = order_json(study, source)},
+                      folder);
 }
 
 }  // namespace aims

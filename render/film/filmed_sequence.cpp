@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/film/filmed_sequence.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 #include <utility>
 
 #include "bench/metrics/association.hpp"
@@ -14,7 +14,7 @@
 #include "core/files/waypoint_times.hpp"
 #include "core/stopwatch.hpp"
 #include "estimator/estimator_spec.hpp"
-#include "render/film/moving_returns.hpp"
+#include "render/film/map_growth.hpp"
 #include "sim/environment/scene_config.hpp"
 #include "sim/simulation.hpp"
 
@@ -122,8 +122,6 @@ Result<FilmedSequence> film_sequence(const Scenario& given, const RunOptions& op
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr Duration kDrawnSpacing = 100 * kMillisecond;
 
 fs::path map_file(const fs::path& folder, const std::string& name) {
   return folder / (name + ".map.ply");

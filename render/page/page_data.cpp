@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/page/page_data.hpp"
 
+#include <zlib.h>
 #include <algorithm>
 #include <bit>
 #include <cassert>
@@ -10,7 +11,6 @@
 #include <string_view>
 #include <utility>
 #include <vector>
-#include <zlib.h>
 
 #include "bench/run/json_text.hpp"
 #include "core/files/atomic_file.hpp"

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/page/series.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
 #include <utility>
 #include <vector>
 
+#include "bench/run/json_text.hpp"
 #include "core/series_style.hpp"
-#include "render/page/json_access.hpp"
 
 namespace aims {
 

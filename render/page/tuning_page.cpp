@@ -11,14 +11,14 @@
 #include <utility>
 #include <vector>
 
+#include "bench/run/json_text.hpp"
 #include "bench/run/scenario.hpp"
 #include "bench/run/validity.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "bench/tuning/range_key.hpp"
 #include "bench/tuning/sweep_summary.hpp"
-#include "render/page/json_access.hpp"
 #include "render/page/links.hpp"
-#include "render/page/series_styles.hpp"
+#include "render/page/series.hpp"
 #include "render/page/tuning_analyses.hpp"
 
 namespace aims {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/results/study_pictures.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <optional>
 #include <system_error>
 
 #include "bench/metrics/localizability_scores.hpp"
-#include "bench/studies/run_folder.hpp"
+#include "bench/studies/written_runs.hpp"
 #include "render/plots/level_plot.hpp"
 #include "render/plots/roc_plot.hpp"
 #include "render/plots/time_plot.hpp"
@@ -106,7 +106,8 @@ Result<void> draw(const ConsistencyCase& each, const fs::path& folder) {
       fmt::format("{}: consistency of {} along the weak axis", each.scenario, each.estimator);
   plot.subtitle = fmt::format(
       "{} seeds; NEES inside its bounds at {} % of {} instants", each.result.runs,
-      each.result.inside_fraction ? fmt::format("{:.0f}", 100.0 * *each.result.inside_fraction) : "-",
+      each.result.inside_fraction ? fmt::format("{:.0f}", 100.0 * *each.result.inside_fraction)
+                                  : "-",
       each.result.judged);
   plot.panels = {nees_panel(each.result), spread_panel(each.result)};
   for (std::size_t i = 0; i < each.runs.size(); ++i) {

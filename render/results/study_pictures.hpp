@@ -25,7 +25,7 @@ Result<void> draw_consistency(const ConsistencyStudy& study, const std::filesyst
 Result<void> draw_families(const std::vector<FamilyResult>& families,
                            const std::filesystem::path& folder, const DrawObserver& observer = {});
 
-/// Draws each experiment's first seed, whose run lies in `folder` (bench/studies/run_folder.hpp),
+/// Draws each experiment's first seed, whose run lies in `folder` (bench/studies/written_runs.hpp),
 /// as the paper's figures: SCENARIO-trajectories.png and SCENARIO-maps.png of LOAM, FAST-LIO2,
 /// LeGO-LOAM and AIMS.
 Result<void> draw_paper(const std::vector<PaperExperiment>& experiments,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/studies/run_folder.hpp"
+#include "bench/studies/written_runs.hpp"
 
 #include <gtest/gtest.h>
 
