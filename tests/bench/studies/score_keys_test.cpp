@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "bench/tuning/objective.hpp"
 #include "tests/bench/studies/short_walk.hpp"
 
 namespace aims {
@@ -63,7 +64,9 @@ TEST(ScoreList, HasTheUnitsThatItsKeysName) {
   for (const Score& score : score_list()) {
     EXPECT_EQ(&score_at(score.key), &score) << "a key above it comes first";
     const std::string named = unit_of_score(score.key);
-    if (!named.empty()) EXPECT_EQ(named, score.unit) << score.key;
+    if (!named.empty()) {
+      EXPECT_EQ(named, score.unit) << score.key;
+    }
   }
 }
 
