@@ -8,17 +8,23 @@
 #include <cmath>
 #include <optional>
 
-#include "core/text.hpp"
-
 namespace aims {
 namespace {
 
-constexpr std::string_view kBlanks = " \t";
+// Beginnings of what a parameter of one number expects.
+constexpr std::string_view kNumber = "a number";
+constexpr std::string_view kInteger = "an integer";
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
 
 /// A finite number that fills the whole text, or nothing.
 template <class Number>
 std::optional<Number> parse(std::string_view text) {
-  text = trimmed(text, kBlanks);
+  text = trimmed(text);
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   Number value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -32,7 +38,7 @@ std::optional<std::string> take_quoted(std::string_view& rest) {
   std::string entry;
   for (std::size_t i = 1; i < rest.size(); ++i) {
     if (rest[i] == '"') {
-      rest = trimmed(rest.substr(i + 1), kBlanks);
+      rest = trimmed(rest.substr(i + 1));
       return entry;
     }
     if (rest[i] == '\\' && i + 1 < rest.size()) ++i;
@@ -44,7 +50,7 @@ std::optional<std::string> take_quoted(std::string_view& rest) {
 /// Removes an unquoted entry from the front of `rest`; nothing when it is empty.
 std::optional<std::string> take_plain(std::string_view& rest) {
   const auto end = std::min(rest.find(','), rest.size());
-  const std::string entry(trimmed(rest.substr(0, end), kBlanks));
+  const std::string entry(trimmed(rest.substr(0, end)));
   rest = rest.substr(end);
   if (entry.empty()) return std::nullopt;
   return entry;
@@ -99,11 +105,11 @@ std::string Range::text() const {
   return {};
 }
 
-bool is_number(const Parameter& parameter) {
-  return parameter.kind == FieldKind::kNumber || parameter.kind == FieldKind::kInteger;
-}
+bool is_integer(const Parameter& parameter) { return parameter.expected.starts_with(kInteger); }
 
-bool is_sequence(const Parameter& parameter) { return parameter.kind >= FieldKind::kTexts; }
+bool is_number(const Parameter& parameter) {
+  return parameter.expected.starts_with(kNumber) || is_integer(parameter);
+}
 
 std::string option_proposal(const Parameter& parameter, std::string_view value) {
   const std::string near = near_match(value, parameter.options);
@@ -111,8 +117,7 @@ std::string option_proposal(const Parameter& parameter, std::string_view value) 
 }
 
 template <class Number>
-void Fields::add_number(std::string_view name, Number& value, Spec spec, FieldKind kind,
-                        std::string_view what) {
+void Fields::add_number(std::string_view name, Number& value, Spec spec, std::string_view what) {
   const Range range = spec.range;
   auto assign = [&value, range](std::string_view text) {
     const auto parsed = parse<Number>(text);
@@ -121,16 +126,16 @@ void Fields::add_number(std::string_view name, Number& value, Spec spec, FieldKi
     return true;
   };
   add(
-      name, std::move(spec), kind, with_range(what, range),
-      [&value] { return fmt::format("{}", value); }, std::move(assign));
+      name, std::move(spec), with_range(what, range), [&value] { return fmt::format("{}", value); },
+      std::move(assign));
 }
 
 void Fields::number(std::string_view name, double& value, Spec spec) {
-  add_number(name, value, std::move(spec), FieldKind::kNumber, "a number");
+  add_number(name, value, std::move(spec), kNumber);
 }
 
 void Fields::integer(std::string_view name, int& value, Spec spec) {
-  add_number(name, value, std::move(spec), FieldKind::kInteger, "an integer");
+  add_number(name, value, std::move(spec), kInteger);
 }
 
 void Fields::flag(std::string_view name, bool& value, Spec spec) {
@@ -140,7 +145,7 @@ void Fields::flag(std::string_view name, bool& value, Spec spec) {
     return true;
   };
   add(
-      name, std::move(spec), FieldKind::kFlag, "true or false",
+      name, std::move(spec), "true or false",
       [&value] { return std::string(value ? "true" : "false"); }, std::move(assign));
 }
 
@@ -150,8 +155,7 @@ void Fields::text(std::string_view name, std::string& value, Spec spec) {
     return true;
   };
   add(
-      name, std::move(spec), FieldKind::kText, "a text", [&value] { return value; },
-      std::move(assign));
+      name, std::move(spec), "a text", [&value] { return value; }, std::move(assign));
 }
 
 void Fields::texts(std::string_view name, std::vector<std::string>& value, Spec spec) {
@@ -162,8 +166,8 @@ void Fields::texts(std::string_view name, std::vector<std::string>& value, Spec 
     return true;
   };
   add(
-      name, std::move(spec), FieldKind::kTexts, "a list of texts like [a, b]",
-      [&value] { return sequence_text(value); }, std::move(assign));
+      name, std::move(spec), "a list of texts like [a, b]",
+      [&value] { return sequence_text(value); }, std::move(assign), true);
 }
 
 void Fields::numbers(std::string_view name, std::vector<double>& value, Spec spec) {
@@ -181,20 +185,19 @@ void Fields::numbers(std::string_view name, std::vector<double>& value, Spec spe
     return true;
   };
   add(
-      name, std::move(spec), FieldKind::kNumbers,
-      with_range("a list of numbers like [a, b], each", range),
-      [&value] { return fmt::format("[{}]", fmt::join(value, ", ")); }, std::move(assign));
+      name, std::move(spec), with_range("a list of numbers like [a, b], each", range),
+      [&value] { return fmt::format("[{}]", fmt::join(value, ", ")); }, std::move(assign), true);
 }
 
 template <class Vector>
 void Fields::add_vector(std::string_view name, Vector& value, Spec spec, std::string_view what) {
   const Range range = spec.range;
   add(
-      name, std::move(spec), FieldKind::kVector, with_range(what, range),
+      name, std::move(spec), with_range(what, range),
       [&value] {
         return fmt::format("[{}]", fmt::join(value.data(), value.data() + value.size(), ", "));
       },
-      [&value, range](std::string_view text) { return assign_vector(value, range, text); });
+      [&value, range](std::string_view text) { return assign_vector(value, range, text); }, true);
 }
 
 void Fields::vector(std::string_view name, Eigen::Vector3d& value, Spec spec) {
@@ -215,10 +218,11 @@ std::string Fields::full_key(std::string_view name) const {
   return prefix_.empty() ? std::string(name) : prefix_ + "." + std::string(name);
 }
 
-void Fields::add(std::string_view name, Spec spec, FieldKind kind, std::string expected,
-                 std::function<std::string()> text, std::function<bool(std::string_view)> assign) {
-  parameters_.push_back({full_key(name), kind, std::move(spec), std::move(expected),
-                         std::move(text), std::move(assign)});
+void Fields::add(std::string_view name, Spec spec, std::string expected,
+                 std::function<std::string()> text, std::function<bool(std::string_view)> assign,
+                 bool sequence) {
+  parameters_.push_back({full_key(name), std::move(spec), std::move(expected), std::move(text),
+                         std::move(assign), sequence});
 }
 
 void Fields::idle_below_switch() {
@@ -259,9 +263,9 @@ void Fields::idle_if(bool condition, std::string_view reason,
 }
 
 std::optional<std::vector<std::string>> sequence_entries(std::string_view text) {
-  text = trimmed(text, kBlanks);
+  text = trimmed(text);
   if (text.size() < 2 || text.front() != '[' || text.back() != ']') return std::nullopt;
-  std::string_view rest = trimmed(text.substr(1, text.size() - 2), kBlanks);
+  std::string_view rest = trimmed(text.substr(1, text.size() - 2));
   std::vector<std::string> entries;
   while (!rest.empty()) {
     auto entry = rest.front() == '"' ? take_quoted(rest) : take_plain(rest);
@@ -269,7 +273,7 @@ std::optional<std::vector<std::string>> sequence_entries(std::string_view text) 
     entries.push_back(std::move(*entry));
     if (rest.empty()) break;
     if (rest.front() != ',') return std::nullopt;
-    rest = trimmed(rest.substr(1), kBlanks);
+    rest = trimmed(rest.substr(1));
     if (rest.empty()) return std::nullopt;
   }
   return entries;

@@ -23,12 +23,6 @@ std::string name_text(std::string_view bytes);
 /// and of a message of more than 4000 bytes the middle is left out.
 std::string line_text(std::string_view message);
 
-/// The text without `blanks` around it.
-std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\r");
-
-/// The word as a POSIX shell reads it back.
-std::string shell_word(const std::string& word);
-
 /// Seconds with nine decimals, which keep the nanoseconds exactly.
 std::string stamp_text(Time stamp);
 

@@ -112,6 +112,8 @@ std::map<std::string, std::string> idle_keys(std::string_view name,
   return idle;
 }
 
+constexpr std::string_view kDoesNotRun = " does not run";
+
 /// Adds the classes in Python by their labels.
 void describe_python(Fields& fields, const std::vector<std::string>& run,
                      EstimatorConfigs& configs) {
@@ -132,26 +134,15 @@ void describe_python(Fields& fields, const std::vector<std::string>& run,
   }
 }
 
-/// Whether `name` is that of an estimator of `run`, or the label of a class in Python there.
-bool runs(std::string_view name, std::span<const std::string> run) {
-  return std::ranges::any_of(run, [&](const std::string& text) {
-    const EstimatorSpec spec = split(text);
-    return name == spec.name || (is_python_name(spec.name) && name == spec.label);
-  });
-}
-
 /// Whether the key of a file configures only estimators that do not run.
-bool of_others(const AssignedKey& assigned, const Fields& fields,
-               std::span<const std::string> run) {
-  constexpr std::string_view kGroup = "estimators.";
-  if (!assigned.from_file || !assigned.key.starts_with(kGroup)) return false;
+bool of_others(const AssignedKey& assigned, const Fields& fields) {
+  if (!assigned.from_file || !assigned.key.starts_with("estimators.")) return false;
   const std::vector<const Parameter*> parameters = fields.matching(assigned.key);
   if (assigned.key.find('*') != std::string::npos) {
-    return std::ranges::none_of(parameters,
-                                [](const Parameter* each) { return each->idle.empty(); });
+    return std::all_of(parameters.begin(), parameters.end(),
+                       [](const Parameter* each) { return !each->idle.empty(); });
   }
-  const std::string name = assigned.key.substr(kGroup.size());
-  return !parameters.empty() && !runs(name.substr(0, name.find('.')), run);
+  return !parameters.empty() && parameters.front()->idle.ends_with(kDoesNotRun);
 }
 
 Result<void> check_label(const EstimatorSpec& spec, std::string_view text) {
@@ -228,7 +219,7 @@ void describe_estimators(Fields& fields, const std::vector<std::string>& run,
     const std::map<std::string, std::string> idle = idle_keys(name, run, configs);
     own.set_idle([&](const Parameter& parameter) {
       const auto found = idle.find(parameter.key);
-      return found == idle.end() ? name + " does not run" : found->second;
+      return found == idle.end() ? name + std::string(kDoesNotRun) : found->second;
     });
     fields.group_of("estimators." + name, std::move(own));
   }
@@ -238,7 +229,7 @@ void describe_estimators(Fields& fields, const std::vector<std::string>& run,
 Result<void> check_effects(const Fields& fields, std::vector<AssignedKey> assigned, bool run_chosen,
                            std::span<const std::string> run, const EstimatorConfigs& configs) {
   if (run_chosen) {
-    std::erase_if(assigned, [&](const AssignedKey& each) { return of_others(each, fields, run); });
+    std::erase_if(assigned, [&](const AssignedKey& each) { return of_others(each, fields); });
   }
   if (auto acts = check_effect(fields, assigned); !acts) return acts;
   for (const std::string& text : run) {

@@ -98,7 +98,7 @@ Result<void> check_range(const Draw& draw, const std::string& name, const Parame
     return failure(
         fmt::format("{}.min: expected more than 0 with scale: log, got {}", name, draw.min));
   }
-  if (parameter.kind == FieldKind::kInteger && !draw.integer) {
+  if (is_integer(parameter) && !draw.integer) {
     return failure(fmt::format("{}.integer: expected true, since '{}' is {}", name, draw.key,
                                parameter.expected));
   }

@@ -19,8 +19,8 @@ constexpr const char* kAte = "ate_yaw_m";  ///< the headline
 std::string scaled_text(const Parameter& parameter, double factor) {
   const auto scaled = [&](const std::string& number) {
     const double value = factor * std::stod(number);
-    return parameter.kind == FieldKind::kInteger ? fmt::format("{}", std::llround(value))
-                                                 : fmt::format("{:.9g}", value);
+    return is_integer(parameter) ? fmt::format("{}", std::llround(value))
+                                 : fmt::format("{:.9g}", value);
   };
   auto entries = sequence_entries(parameter.text());
   if (!entries) return scaled(parameter.text());

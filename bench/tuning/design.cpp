@@ -12,7 +12,6 @@
 #include <optional>
 
 #include "core/random.hpp"
-#include "core/text.hpp"
 
 namespace aims {
 namespace {
@@ -26,6 +25,12 @@ std::optional<Number> number_of(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  return text;
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
@@ -78,7 +83,7 @@ double rounded(double value) {
 
 const Parameter* integer_parameter(const Fields& fields, const std::string& key) {
   const Parameter* parameter = fields.find(key);
-  return parameter != nullptr && parameter->kind == FieldKind::kInteger ? parameter : nullptr;
+  return parameter != nullptr && is_integer(*parameter) ? parameter : nullptr;
 }
 
 std::vector<std::vector<double>> grid(std::span<const ParameterRange> ranges, std::size_t size) {

@@ -80,6 +80,13 @@ class RowReader {
   int line_ = 1;
 };
 
+/// The cell without blanks around it.
+std::string_view trimmed(std::string_view cell) {
+  const std::size_t first = cell.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return cell.substr(first, cell.find_last_not_of(" \t\r") - first + 1);
+}
+
 /// The character that separates the cells of a header of another tool.
 char separator_of(std::string_view header) {
   for (const char each : {',', ';', '\t'}) {

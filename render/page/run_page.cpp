@@ -13,7 +13,6 @@
 #include "bench/run/start_anchor.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/series_style.hpp"
-#include "core/text.hpp"
 #include "render/page/map_cloud.hpp"
 #include "render/page/page_data.hpp"
 #include "render/page/run_folder.hpp"
@@ -39,13 +38,20 @@ const std::vector<PagePicture> kPictures = {
 /// Pictures beyond this size are left out [bytes].
 constexpr std::uintmax_t kLargestPicture = 512 * 1024;
 
+/// A word as a shell reads it back.
+std::string quoted(const std::string& word) {
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
 /// The command that repeats the run, called in its folder; null for scores of foreign trajectories.
 Json command_json(const RunFolder& run) {
   if (run.config_yaml.empty()) return {};
   if (run.estimate.is_object()) {
     const Json bag = member(run.estimate, "bag");
     if (!bag.is_string()) return {};
-    return fmt::format("aims estimate {} --config config.yaml", shell_word(bag.get<std::string>()));
+    return fmt::format("aims estimate {} --config config.yaml", quoted(bag.get<std::string>()));
   }
   const Json seed = member(run.scores, "seed");
   const std::string seeds =

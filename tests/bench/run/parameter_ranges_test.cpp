@@ -51,7 +51,7 @@ std::string highest(const Parameter& parameter) {
 /// Values that are beyond a range or no numbers at all.
 std::vector<std::string> refused_values(const Parameter& parameter) {
   const Range& range = parameter.spec.range;
-  const bool whole = parameter.kind == FieldKind::kInteger;
+  const bool whole = is_integer(parameter);
   const double below = whole ? range.min - 1.0 : std::nextafter(range.min, -1e300);
   const double above = whole ? range.max + 1.0 : std::nextafter(range.max, 1e300);
   return {fmt::format("{}", below),
@@ -101,7 +101,7 @@ TEST(ParameterRanges, SmallAndOddValuesAreTakenExactlyWithinTheRange) {
   for (const Parameter& parameter : fields.parameters()) {
     if (!is_numeric(parameter)) continue;
     for (const double value : {0.0, -1.0, 1e-308, 2147483648.0}) {
-      const bool whole = parameter.kind != FieldKind::kInteger || std::floor(value) == value;
+      const bool whole = !is_integer(parameter) || std::floor(value) == value;
       const bool taken =
           assign(fields, parameter.key, text_for(parameter, fmt::format("{}", value))).has_value();
       EXPECT_EQ(taken, whole && parameter.spec.range.contains(value)) << parameter.key << value;
