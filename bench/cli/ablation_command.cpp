@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "bench/cli/commands.hpp"
-#include "bench/cli/study_suite.hpp"
 #include "bench/cli/suite_options.hpp"
 #include "bench/cli/terminal.hpp"
 #include "bench/studies/ablation.hpp"

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <csignal>
+#include <exception>
+#include <new>
 
 #include "bench/cli/exit_code.hpp"
 #include "bench/cli/json_output.hpp"
@@ -217,7 +220,9 @@ const CLI::App& Command::program() const {
   return *app;
 }
 
-int run_program(const Program& program, int argc, char** argv) {
+namespace {
+
+int run_commands(const Program& program, int argc, char** argv) {
   const std::span<char*> words(argv, static_cast<std::size_t>(argc));
   for (const ExternalCommand& each : program.external) {
     if (argc > 1 && std::string(argv[1]) == each.name) return run_external(each, words.subspan(1));
@@ -241,6 +246,32 @@ int run_program(const Program& program, int argc, char** argv) {
   }
   const int parsed = parse(app, argc, argv);
   return parsed == kOk ? exit_code : parsed;
+}
+
+}  // namespace
+
+int run_program(const Program& program, int argc, char** argv) {
+  // Beyond a limit of the size of files (ulimit -f) writing is then an error, not the end.
+  std::signal(SIGXFSZ, SIG_IGN);
+  try {
+    const int exit_code = run_commands(program, argc, argv);
+    if (const auto finished = finish_output(); !finished) {
+      print_error(fmt::format("{}: {}", program.name, finished.error().message));
+      return exit_code == kOk ? kBadInput : exit_code;
+    }
+    return exit_code;
+  } catch (const std::filesystem::filesystem_error& error) {
+    // A path that cannot be followed, e.g. a loop of links or a name that is too long.
+    print_error(
+        fmt::format("{}: {}: {}", program.name, error.path1().string(), error.code().message()));
+    return kBadInput;
+  } catch (const std::bad_alloc&) {
+    print_error(program.name + ": not enough memory (ulimit -v states the limit of this shell)");
+    return kInternal;
+  } catch (const std::exception& error) {
+    print_error(fmt::format("{}: internal error: {}", program.name, error.what()));
+    return kInternal;
+  }
 }
 
 }  // namespace aims

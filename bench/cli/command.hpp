@@ -93,7 +93,8 @@ struct Program {
 };
 
 /// Runs the command that the arguments give; its exit code, or that of a usage error, which is one
-/// line on standard error with a near match for an unknown command or option.
+/// line on standard error with a near match for an unknown command or option. An exception is one
+/// line and the code of an internal error.
 int run_program(const Program& program, int argc, char** argv);
 
 }  // namespace aims

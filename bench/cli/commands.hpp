@@ -20,10 +20,7 @@ void declare_consistency(Command command, const std::filesystem::path& scenarios
 void declare_detectors(Command command, const std::filesystem::path& scenarios);
 void declare_compare(Command command);
 void declare_faults(Command command, const std::filesystem::path& scenarios);
-void declare_fidelity(Command command, const std::filesystem::path& scenarios);
-void declare_fidelity_baselines(Command command, const std::filesystem::path& scenarios);
 void declare_groups(Command command);
-void declare_order(Command command);
 void declare_paper(Command command, const std::filesystem::path& scenarios);
 void declare_study(Command command, const std::filesystem::path& scenarios);
 void declare_simulate(Command command, const std::filesystem::path& scenarios);

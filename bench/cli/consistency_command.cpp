@@ -3,12 +3,11 @@
 #include <string>
 
 #include "bench/cli/commands.hpp"
-#include "bench/cli/study_suite.hpp"
 #include "bench/cli/suite_options.hpp"
 #include "bench/cli/terminal.hpp"
 #include "bench/studies/consistency_study.hpp"
 #include "bench/studies/suite_summary.hpp"
-#include "render/results/consistency_pictures.hpp"
+#include "render/results/study_pictures.hpp"
 
 namespace aims {
 namespace {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "bench/cli/commands.hpp"
-#include "bench/cli/draw_display.hpp"
 #include "bench/cli/json_output.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/progress.hpp"

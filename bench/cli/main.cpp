@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
-
 #include <array>
-#include <csignal>
-#include <exception>
 #include <filesystem>
-#include <new>
 
 #include "bench/cli/commands.hpp"
-#include "bench/cli/exit_code.hpp"
-#include "bench/cli/terminal.hpp"
 #include "bench/run/catalogue.hpp"
 
 namespace {
@@ -87,28 +80,9 @@ constexpr const char* kFooter =
 }  // namespace
 
 int main(int argc, char** argv) {
-  // Beyond a limit of the size of files (ulimit -f) writing is then an error, not the end.
-  std::signal(SIGXFSZ, SIG_IGN);
-  try {
-    const auto scenarios =
-        aims::default_scenario_folder(std::filesystem::read_symlink("/proc/self/exe"));
-    const aims::Program program = {"aims",    kDescription, kFooter,  "aims " AIMS_VERSION,
-                                   kCommands, kExternal,    scenarios};
-    const int exit_code = aims::run_program(program, argc, argv);
-    if (const auto finished = aims::finish_output(); !finished) {
-      aims::print_error("aims: " + finished.error().message);
-      return exit_code == aims::kOk ? aims::kBadInput : exit_code;
-    }
-    return exit_code;
-  } catch (const std::filesystem::filesystem_error& error) {
-    // A path that cannot be followed, e.g. a loop of links or a name that is too long.
-    aims::print_error(fmt::format("aims: {}: {}", error.path1().string(), error.code().message()));
-    return aims::kBadInput;
-  } catch (const std::bad_alloc&) {
-    aims::print_error("aims: not enough memory (ulimit -v states the limit of this shell)");
-    return aims::kInternal;
-  } catch (const std::exception& error) {
-    aims::print_error(fmt::format("aims: internal error: {}", error.what()));
-    return aims::kInternal;
-  }
+  const auto scenarios =
+      aims::default_scenario_folder(std::filesystem::read_symlink("/proc/self/exe"));
+  return aims::run_program(
+      {"aims", kDescription, kFooter, "aims " AIMS_VERSION, kCommands, kExternal, scenarios}, argc,
+      argv);
 }

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bench/cli/commands.hpp"
-#include "bench/cli/draw_display.hpp"
 #include "bench/cli/options.hpp"
+#include "bench/cli/progress.hpp"
 #include "bench/cli/terminal.hpp"
 #include "render/page/page.hpp"
 

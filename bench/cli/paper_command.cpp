@@ -4,14 +4,13 @@
 #include <vector>
 
 #include "bench/cli/commands.hpp"
-#include "bench/cli/draw_display.hpp"
-#include "bench/cli/study_suite.hpp"
+#include "bench/cli/progress.hpp"
 #include "bench/cli/suite_options.hpp"
 #include "bench/cli/terminal.hpp"
 #include "bench/studies/paper_study.hpp"
-#include "bench/studies/run_folder.hpp"
 #include "bench/studies/suite_summary.hpp"
-#include "render/results/paper_pictures.hpp"
+#include "bench/studies/written_runs.hpp"
+#include "render/results/study_pictures.hpp"
 
 namespace aims {
 namespace {

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <csignal>
@@ -11,9 +10,11 @@
 #include <utility>
 
 #include "bench/cli/exit_code.hpp"
+#include "bench/cli/terminal.hpp"
 #include "core/text.hpp"
 
 namespace aims {
+
 namespace {
 
 constexpr double kLineEvery = 10.0;  ///< where standard error is no terminal [s]
@@ -120,6 +121,36 @@ void JobDisplay::show(const JobProgress& progress) {
   fmt::print(stderr, "{}{}{}", terminal_ ? "\r" : "", line, terminal_ ? "    " : "\n");
   open_ = terminal_;
   std::fflush(stderr);
+}
+
+namespace {
+
+constexpr const char* kClearLine = "\r\x1b[K";
+
+}  // namespace
+
+DrawDisplay::DrawDisplay(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+DrawObserver DrawDisplay::observer() {
+  return [this](const std::filesystem::path& file) { show(file); };
+}
+
+void DrawDisplay::show(const std::filesystem::path& file) {
+  if (quiet_) return;
+  if (terminal_) {
+    std::fputs(kClearLine, stderr);
+    write_terminal(stderr, "drawing " + name_text(file.string()));
+    open_ = true;
+  } else if (file.parent_path() != folder_) {
+    folder_ = file.parent_path();
+    print_error("drawing " + folder_.string());
+  }
+  std::fflush(stderr);
+}
+
+void DrawDisplay::close() {
+  if (open_) std::fputs(kClearLine, stderr);
+  open_ = false;
 }
 
 }  // namespace aims

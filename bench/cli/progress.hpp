@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 
 #include "bench/jobs/job_runner.hpp"
+#include "bench/run/draw_observer.hpp"
 #include "bench/run/progress.hpp"
 
 namespace aims {
@@ -65,6 +67,29 @@ class JobDisplay {
   bool open_ = false;
   std::string shown_;
   double shown_at_s_ = 0.0;
+};
+
+/// Shows which picture or page is drawn on standard error: a line that changes on a terminal, a
+/// line per folder elsewhere.
+class DrawDisplay {
+ public:
+  explicit DrawDisplay(bool quiet);
+  ~DrawDisplay() { close(); }
+  DrawDisplay(const DrawDisplay&) = delete;
+  DrawDisplay& operator=(const DrawDisplay&) = delete;
+
+  /// Shows each file; must not outlive the display.
+  DrawObserver observer();
+  /// Clears the line.
+  void close();
+
+ private:
+  void show(const std::filesystem::path& file);
+
+  bool quiet_;
+  bool terminal_;
+  bool open_ = false;
+  std::filesystem::path folder_;
 };
 
 }  // namespace aims

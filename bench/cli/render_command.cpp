@@ -15,7 +15,7 @@
 #include "bench/cli/terminal.hpp"
 #include "estimator/estimator_spec.hpp"
 #include "render/film/film_files.hpp"
-#include "render/film/stored_sequence.hpp"
+#include "render/film/filmed_sequence.hpp"
 
 namespace aims {
 namespace {

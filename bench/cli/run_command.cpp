@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "bench/cli/commands.hpp"
-#include "bench/cli/draw_display.hpp"
 #include "bench/cli/json_output.hpp"
 #include "bench/cli/options.hpp"
+#include "bench/cli/progress.hpp"
 #include "bench/cli/suite_options.hpp"
 #include "bench/cli/terminal.hpp"
 #include "bench/run/health_summary.hpp"
 #include "bench/run/score_table.hpp"
-#include "bench/studies/run_folder.hpp"
+#include "bench/studies/written_runs.hpp"
 #include "render/results/run_pictures.hpp"
 
 namespace aims {

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "bench/cli/commands.hpp"
-#include "bench/cli/draw_display.hpp"
 #include "bench/cli/json_output.hpp"
 #include "bench/cli/options.hpp"
+#include "bench/cli/progress.hpp"
 #include "bench/cli/terminal.hpp"
 #include "bench/run/evo_export.hpp"
 #include "bench/run/scoring_config.hpp"
@@ -143,7 +143,8 @@ void declare_score(Command command, const fs::path& /*scenarios*/) {
   add_quiet(command, shared);
   command.footer(
       "A trajectory is a file of TUM lines, of KITTI poses, CSV, BAG:/TOPIC (nav_msgs/Odometry,\n"
-      "nav_msgs/Path, geometry_msgs/PoseStamped and others with poses), or BAG:/tf:PARENT,CHILD; a\n"
+      "nav_msgs/Path, geometry_msgs/PoseStamped and others with poses), or BAG:/tf:PARENT,CHILD; "
+      "a\n"
       "truth may also be positions: lines 'stamp x y z' or geometry_msgs/PointStamped.\n"
       "Exit code 4: an estimate covers less of the truth than scoring.min_coverage (0.5).\n"
       "Examples:\n"

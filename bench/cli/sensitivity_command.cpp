@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "bench/cli/commands.hpp"
-#include "bench/cli/study_suite.hpp"
 #include "bench/cli/suite_options.hpp"
 #include "bench/cli/terminal.hpp"
 #include "bench/studies/sensitivity.hpp"

@@ -20,18 +20,11 @@ void declare_study(Command command, const std::filesystem::path& scenarios) {
       scenarios);
   declare_faults(command.subcommand("faults", "Estimators under every fault of their input"),
                  scenarios);
-  declare_fidelity(command.subcommand("fidelity", "The simulated sensors against real ones"),
-                   scenarios);
-  declare_fidelity_baselines(
-      command.subcommand("fidelity-baselines", "Baselines against the published systems"),
-      scenarios);
   declare_compare(
       command.subcommand("compare", "Scores that got better or worse between two folders"));
   declare_groups(command.subcommand("groups", "Scores by a quantity that the seeds drew"));
   declare_paper(command.subcommand("paper", "The paper's tables with every compared system"),
                 scenarios);
-  declare_order(command.subcommand(
-      "order", "Conditions under which adaptive weights help and the paper's order holds"));
   command.footer(
       "Examples:\n"
       "  aims study ablation severity_3 severity_8 --seeds 1-3\n"

@@ -5,17 +5,17 @@
 #include <string>
 
 #include "bench/cli/commands.hpp"
-#include "bench/cli/draw_display.hpp"
 #include "bench/cli/json_output.hpp"
 #include "bench/cli/options.hpp"
+#include "bench/cli/progress.hpp"
 #include "bench/cli/suite_options.hpp"
 #include "bench/cli/terminal.hpp"
 #include "bench/run/score_table.hpp"
 #include "bench/studies/families.hpp"
-#include "bench/studies/run_folder.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "bench/studies/suite_tables.hpp"
-#include "render/results/family_pictures.hpp"
+#include "bench/studies/written_runs.hpp"
+#include "render/results/study_pictures.hpp"
 
 namespace aims {
 namespace {
@@ -49,12 +49,12 @@ void print_scenarios(const Suite& suite) {
 
 void print_matrices(const Suite& suite) {
   print_out("Median [95 % bootstrap interval] worst, over seeds\n\n");
-  for (const HeadlineScore& score : kHeadlineScores) {
+  for (const Score& score : headline_scores()) {
     const std::string key = score.key;
     if (key == "max_error_z_m" || key == "m_end_m") continue;  // in suite.md
     print_matrix(fmt::format("{} [{}]", score.title, score.unit), headline_table(suite, score));
   }
-  for (const SuccessScore& score : kSuccessScores) {
+  for (const Score& score : success_scores()) {
     print_matrix(fmt::format("Success {} of the distance, with 95 % interval", score.title),
                  success_table(suite, score));
   }

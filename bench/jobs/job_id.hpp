@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
+#include "bench/jobs/job.hpp"
 #include "bench/run/scenario.hpp"
 #include "core/error.hpp"
 #include "estimator/estimator_spec.hpp"
@@ -36,5 +38,18 @@ class JobIds {
   EstimatorConfigs estimators_;
   std::string scenario_key_;
 };
+
+/// Part `index` of `count` (from 1) of a list of jobs.
+struct Shard {
+  int index = 1;
+  int count = 1;
+};
+
+/// The shard of "2/8".
+Result<Shard> parse_shard(std::string_view text);
+
+/// The shard's jobs: neighbours in the list, so that a shard needs few sequences. The shards differ
+/// by one job at most, and together are all jobs.
+std::span<const Job> part_of(std::span<const Job> jobs, const Shard& shard);
 
 }  // namespace aims

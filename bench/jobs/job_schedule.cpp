@@ -8,8 +8,8 @@
 #include <system_error>
 #include <utility>
 
+#include "bench/run/estimator_files.hpp"
 #include "bench/run/json_text.hpp"
-#include "bench/run/results.hpp"
 #include "bench/run/score_record.hpp"
 #include "bench/run/sequence_record.hpp"
 #include "bench/run/validity.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/jobs/job.hpp"
-#include "bench/jobs/shard.hpp"
+#include "bench/jobs/job_id.hpp"
 #include "core/error.hpp"
 #include "core/files/folder_lock.hpp"
 

@@ -9,8 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "bench/run/lidar_sheet.hpp"
-#include "bench/run/robot_sheet.hpp"
+#include "bench/run/model_sheets.hpp"
 #include "estimator/registry.hpp"
 
 namespace aims {
@@ -76,9 +75,10 @@ Result<fs::path> named_scenario(const std::string& name, const fs::path& folder)
   if (file) return file;
   const auto members = scenario_heads(folder, std::array{name});
   if (!members) return file;  // no tag either
-  return failure(fmt::format("{}: no scenario, but the tag of {} scenarios in {}; those are "
-                             "aims suite --tags {}",
-                             name, members->size(), folder.string(), name));
+  return failure(
+      fmt::format("{}: no scenario, but the tag of {} scenarios in {}; those are "
+                  "aims suite --tags {}",
+                  name, members->size(), folder.string(), name));
 }
 
 Result<std::vector<ScenarioFile>> select_scenarios(std::span<const std::string> names,

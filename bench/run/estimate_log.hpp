@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/results.hpp"
+#include "bench/run/estimator_files.hpp"
 #include "bench/run/timed_estimator.hpp"
 #include "core/error.hpp"
 #include "core/files/atomic_file.hpp"

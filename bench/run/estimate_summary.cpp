@@ -7,9 +7,9 @@
 
 #include "bench/metrics/statistics.hpp"
 #include "bench/run/estimate_log.hpp"
+#include "bench/run/estimator_files.hpp"
 #include "bench/run/health_summary.hpp"
 #include "bench/run/json_text.hpp"
-#include "bench/run/results.hpp"
 #include "bench/run/score_record.hpp"
 #include "bench/run/tables.hpp"
 #include "bench/run/trajectory_summary.hpp"

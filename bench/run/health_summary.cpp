@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "bench/run/json_values.hpp"
+#include "bench/run/json_text.hpp"
 
 namespace aims {
 namespace {

@@ -2,12 +2,15 @@
 #include "bench/run/json_text.hpp"
 
 #include <fmt/format.h>
-
 #include <algorithm>
+#include <cmath>
+#include <system_error>
 
+#include "core/files/atomic_file.hpp"
 #include "core/text.hpp"
 
 namespace aims {
+
 namespace {
 
 constexpr int kDeepest = 64;
@@ -47,6 +50,36 @@ Result<Json> parse_json(std::string_view text, const std::string& name) {
   }
   if (json.is_discarded()) return failure(fmt::format("{}: is incomplete or not JSON", name));
   return json;
+}
+
+namespace fs = std::filesystem;
+
+const Json& member(const Json& json, const std::string& key) {
+  static const Json none;
+  if (!json.is_object()) return none;
+  const auto found = json.find(key);
+  return found == json.end() ? none : *found;
+}
+
+std::string text_in(const Json& json, const std::string& key) {
+  const Json& value = member(json, key);
+  return value.is_string() ? value.get<std::string>() : std::string();
+}
+
+std::optional<double> number_in(const Json& json, const std::string& key) {
+  const Json& value = member(json, key);
+  if (!value.is_number()) return std::nullopt;
+  const double number = value.get<double>();
+  return std::isfinite(number) ? std::optional<double>(number) : std::nullopt;
+}
+
+Result<Json> read_json_of(const fs::path& file, std::string_view schema) {
+  const auto text = read_file(file);
+  if (!text) return tl::unexpected(text.error());
+  auto json = parse_json(*text, file.string());
+  if (!json) return json;
+  if (text_in(*json, "schema") == schema) return json;
+  return failure(fmt::format("{}: expected a document of schema {}", file.string(), schema));
 }
 
 }  // namespace aims

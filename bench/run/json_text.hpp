@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "core/error.hpp"
 
@@ -18,5 +21,40 @@ std::string json_text(const Json& json, int indent);
 /// Reads JSON text. Error, which calls it `name`, when it is incomplete, no JSON, or nested deeper
 /// than any file of this program.
 Result<Json> parse_json(std::string_view text, const std::string& name);
+
+/// The value of that key; `fallback` when `json` is no object, has none, or one of another type, as
+/// a file may that somebody edited.
+template <class Value>
+Value value_in(const Json& json, const std::string& key, Value fallback) {
+  if (!json.is_object()) return fallback;
+  const auto found = json.find(key);
+  if (found == json.end()) return fallback;
+  if constexpr (std::is_same_v<Value, Json>) {
+    return *found;
+  } else if constexpr (std::is_same_v<Value, std::string>) {
+    return found->is_string() ? found->get<std::string>() : fallback;
+  } else if constexpr (std::is_same_v<Value, bool>) {
+    return found->is_boolean() ? found->get<bool>() : fallback;
+  } else {
+    return found->is_number() ? found->get<Value>() : fallback;
+  }
+}
+
+/// As above for a text.
+inline std::string value_in(const Json& json, const std::string& key, const char* fallback) {
+  return value_in(json, key, std::string(fallback));
+}
+
+/// The member of that key; null when `json` is no object or has none.
+const Json& member(const Json& json, const std::string& key);
+
+/// The text of that key; empty when it is no text.
+std::string text_in(const Json& json, const std::string& key);
+
+/// The finite number of that key; none when it is none.
+std::optional<double> number_in(const Json& json, const std::string& key);
+
+/// Reads a JSON document of that schema. Error with the file and what was expected.
+Result<Json> read_json_of(const std::filesystem::path& file, std::string_view schema);
 
 }  // namespace aims

@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <map>
 
-#include "bench/run/lidar_sheet.hpp"
+#include "bench/run/model_sheets.hpp"
 #include "bench/run/python_classes.hpp"
-#include "bench/run/robot_sheet.hpp"
 #include "bench/run/scenario_head.hpp"
 #include "bench/run/score_keys.hpp"
 #include "core/file_name.hpp"

@@ -10,6 +10,7 @@
 
 #include "bench/run/json_text.hpp"
 #include "bench/run/outcome.hpp"
+#include "bench/run/score_list.hpp"
 
 namespace aims {
 
@@ -21,10 +22,7 @@ inline constexpr const char* kSuccessKey = "success";
 inline constexpr const char* kStrictSuccessKey = "success_1_percent";
 
 /// The number, or the truth value as 0 or 1, at a dotted key of scores; none without one.
-std::optional<double> number_at(const Json& json, const std::string& key);
-
-/// The number, or null for none and for what is not finite.
-Json json_of(const std::optional<double>& value);
+std::optional<double> number_at(const Json& json, std::string_view key);
 
 /// What scores.json holds of one run.
 struct RunRecord {
@@ -34,9 +32,6 @@ struct RunRecord {
 
 /// Mean, median and 99th percentile of the times per scan [ms].
 Json time_json(const std::vector<double>& times_ms);
-
-/// What scores.json holds of any estimate.
-Json scores_json(const Scores& scores);
 
 /// What scores.json holds of one estimator of a run; the scores of a re-optimized trajectory stand
 /// under `optimized`.

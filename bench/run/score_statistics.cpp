@@ -159,8 +159,4 @@ Interval mean_interval(const std::vector<double>& values) {
       kBootstrapSeed, kMeanReplicates);
 }
 
-bool is_timing(const std::string& score_key) {
-  return score_key.starts_with("time_per_scan_ms") || score_key.starts_with("cpu_per_scan_ms");
-}
-
 }  // namespace aims

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -13,36 +12,6 @@
 #include "bench/run/score_record.hpp"
 
 namespace aims {
-
-/// A score that many runs are summed up by.
-struct HeadlineScore {
-  const char* key;
-  const char* title;
-  const char* unit;
-  int digits;
-  double floor;  ///< a change below this [unit] is of no interest
-};
-
-/// The headline, ATE after alignment by heading and translation; the ATE aligned at the start; the
-/// heading error; M_list over all segments; M_end; the largest height error.
-inline constexpr std::array<HeadlineScore, 6> kHeadlineScores = {{
-    {"ate_yaw_m", "ATE yaw", "m", 3, 0.01},
-    {"ate_m", "ATE start", "m", 3, 0.01},
-    {"heading_error_mrad", "heading", "mrad", 1, 1.0},
-    {"m_list_percent.all", "M_list", "%", 3, 0.02},
-    {"m_end_m", "M_end", "m", 3, 0.01},
-    {"max_error_z_m", "max |z|", "m", 3, 0.01},
-}};
-
-/// A limit of the position error, and whether an estimate stayed within it.
-struct SuccessScore {
-  const char* key;
-  const char* title;  ///< of columns
-};
-inline constexpr std::array<SuccessScore, 2> kSuccessScores = {{
-    {kSuccessKey, "within 5 %"},
-    {kStrictSuccessKey, "within 1 %"},
-}};
 
 /// One score of one estimator over runs of the same scenario. As everywhere below, invalid runs
 /// (bench/run/validity.hpp) are left out.
@@ -121,8 +90,5 @@ PairedStatistics statistics_of(const ScorePairs& pairs);
 
 /// 95 % bootstrap interval of the mean.
 Interval mean_interval(const std::vector<double>& values);
-
-/// True for scores that depend on the machine and the moment.
-bool is_timing(const std::string& score_key);
 
 }  // namespace aims

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "bench/run/json_values.hpp"
+#include "bench/run/json_text.hpp"
 #include "bench/run/score_statistics.hpp"
 #include "bench/run/validity.hpp"
 
@@ -16,10 +16,11 @@ namespace {
 
 constexpr const char* kSe3Key = "ate_se3_m";
 
+/// A column of `score`, at a key of numbers.
 struct Column {
   std::string title;
-  std::string key;  ///< of the record; the smaller its value the better
-  int digits = 3;
+  std::string key;
+  Score score;
   bool optional = false;  ///< left out where no row has a value
 };
 
@@ -32,28 +33,39 @@ struct Row {
 /// More segments have a column for all of them alone.
 constexpr std::size_t kMostSegments = 2;
 
+Column column_of(const std::string& key, bool optional = false) {
+  const Score& score = score_at(key);
+  return {fmt::format("{} {}", score.title, score.unit), key, score, optional};
+}
+
+/// The M_list of one segment.
+Column segment_column(const std::string& segment) {
+  Column column = column_of("m_list_percent." + segment);
+  column.title = fmt::format("{}({}) {}", column.score.title, segment, column.score.unit);
+  return column;
+}
+
 /// Of several runs, whose cells are wide, those that a reader compares by.
 std::vector<Column> columns_of(const RunRecord& run, bool several) {
-  std::vector<Column> columns = {{"ATE yaw m", "ate_yaw_m"},
-                                 {"ATE start m", "ate_m"},
-                                 {"heading mrad", "heading_error_mrad", 1}};
+  std::vector<Column> columns = {column_of("ate_yaw_m"), column_of("ate_m"),
+                                 column_of("heading_error_mrad")};
   const Json& segments = run.scores.at("segments");
   const bool shown = !several && segments.size() <= kMostSegments;
   for (const Json& segment : segments) {
-    const auto name = segment["name"].get<std::string>();
-    if (shown) columns.push_back({fmt::format("M_list({}) %", name), "m_list_percent." + name});
+    if (shown) columns.push_back(segment_column(segment["name"].get<std::string>()));
   }
-  if (!shown || segments.size() != 1) columns.push_back({"M_list %", "m_list_percent.all"});
-  columns.push_back({"M_end m", "m_end_m"});
-  columns.push_back({"control points %", "control_points.score", 1, true});
+  if (!shown || segments.size() != 1) columns.push_back(column_of("m_list_percent.all"));
+  columns.push_back(column_of("m_end_m"));
+  columns.push_back(column_of("control_points.score", true));
   if (!several) {
-    columns.push_back({"ATE SE(3) m", kSe3Key});
-    columns.push_back({"ATE Sim(3) m", "ate_sim3_m", 3, true});
+    columns.push_back(column_of(kSe3Key));
+    columns.push_back(column_of("ate_sim3_m", true));
   }
-  columns.push_back({"RPE %", "path_error_percent.all", 3, true});
-  if (!several) columns.push_back({"RPE deg/m", "path_error_deg_per_m.all", 3, true});
-  columns.push_back({"max |z| m", "max_error_z_m"});
-  columns.push_back({"CPU ms/scan", "cpu_per_scan_ms.mean", 2, true});
+  columns.push_back(column_of("path_error_percent.all", true));
+  if (!several) columns.push_back(column_of("path_error_deg_per_m.all", true));
+  columns.push_back(column_of("max_error_z_m"));
+  columns.push_back(column_of("cpu_per_scan_ms.mean", true));
+  columns.back().title += "/scan";
   return columns;
 }
 
@@ -77,16 +89,18 @@ bool has_success(std::span<const RunRecord> runs, const Row& row) {
   return successes(runs, row.estimator, row.prefix + kSuccessKey) > 0;
 }
 
-/// The smallest median of the column among rows with a success; none of a single row.
+/// The best median of the column among rows with a success; none of a single row.
 std::optional<double> best_in(std::span<const RunRecord> runs, const std::vector<Row>& rows,
                               const Column& column) {
-  if (rows.size() < 2 || column.key.starts_with("cpu")) return std::nullopt;
-  std::optional<double> smallest;
+  if (rows.size() < 2 || is_timing(column.key)) return std::nullopt;
+  const bool larger = column.score.better == Better::kLarger;
+  std::optional<double> best;
   for (const Row& row : rows) {
     const auto median = statistics_in(runs, row, column.key).median;
-    if (median && has_success(runs, row)) smallest = std::min(*median, smallest.value_or(*median));
+    if (!median || !has_success(runs, row)) continue;
+    if (!best || (larger ? *median > *best : *median < *best)) best = median;
   }
-  return smallest;
+  return best;
 }
 
 /// " line" or " point" where least squares left an angle open.
@@ -102,10 +116,10 @@ std::string cell(std::span<const RunRecord> runs, const Row& row, const Column& 
   const ScoreStatistics summary = statistics_in(runs, row, column.key);
   if (!summary.median) return "-";
   const bool success = has_success(runs, row);
-  std::string text = fmt::format("{:.{}f}", *summary.median, column.digits);
-  if (runs.size() > 1) text += fmt::format(" ({:.{}f})", *summary.worst, column.digits);
+  std::string text = fmt::format("{:.{}f}", *summary.median, column.score.digits);
+  if (runs.size() > 1) text += fmt::format(" ({:.{}f})", *summary.worst, column.score.digits);
   if (success && best && *summary.median == *best) text += "*";
-  const bool timing = column.key.starts_with("cpu");
+  const bool timing = is_timing(column.key);
   if (runs.size() > 1 && !success && !timing) text += " x";
   if (runs.size() == 1 && column.key == kSe3Key) text += spread_mark(runs.front(), row);
   return text;
@@ -123,8 +137,7 @@ std::string outcome_of(const RunRecord& run, const Row& row) {
   return fmt::format("{} at {:.1f} s", reason.empty() ? "diverged" : reason, *at - start);
 }
 
-std::string success_cell(std::span<const RunRecord> runs, const Row& row,
-                         const SuccessScore& score) {
+std::string success_cell(std::span<const RunRecord> runs, const Row& row, const Score& score) {
   if (std::ranges::none_of(runs, is_valid_run)) return "invalid run";
   if (runs.size() == 1 && std::string(score.key) == kSuccessKey) {
     return outcome_of(runs.front(), row);
@@ -163,14 +176,14 @@ TextTable score_table(std::span<const RunRecord> runs) {
   table.header = {"estimator"};
   for (const Column& column : columns) table.header.push_back(column.title);
   table.header.emplace_back("tracked");
-  for (const SuccessScore& score : kSuccessScores) table.header.emplace_back(score.title);
+  for (const Score& score : success_scores()) table.header.emplace_back(score.title);
   for (const Row& row : rows) {
     table.rows.push_back({row.prefix.empty() ? row.estimator : optimized_label(row.estimator)});
     for (const Column& column : columns) {
       table.rows.back().push_back(cell(runs, row, column, best_in(runs, rows, column)));
     }
     table.rows.back().push_back(tracked_cell(runs, row));
-    for (const SuccessScore& score : kSuccessScores) {
+    for (const Score& score : success_scores()) {
       table.rows.back().push_back(success_cell(runs, row, score));
     }
   }

@@ -5,11 +5,11 @@
 
 #include "bench/run/expectations.hpp"
 #include "bench/run/json_text.hpp"
+#include "bench/run/report.hpp"
 #include "bench/run/score_statistics.hpp"
 #include "bench/run/score_table.hpp"
 #include "bench/run/tables.hpp"
 #include "bench/run/validity.hpp"
-#include "core/files/atomic_file.hpp"
 
 namespace aims {
 namespace {
@@ -47,18 +47,12 @@ std::string markdown_of(const Scenario& scenario, std::span<const RunRecord> run
 Result<void> write_summary(const Scenario& scenario, std::span<const RunRecord> runs,
                            const std::filesystem::path& folder) {
   if (runs.empty()) return {};
-  auto written = write_csv(folder / "summary.csv", scores_csv(runs));
-  if (written) {
-    written = write_file_atomically(folder / "summary.md", markdown_of(scenario, runs));
-  }
-  if (written) {
-    written = write_file_atomically(folder / "summary.tex", to_latex(score_table(runs)));
-  }
-  if (written) {
-    written = write_file_atomically(folder / "summary.json",
-                                    json_text(summary_json(scenario, runs), 2) + "\n");
-  }
-  return written;
+  return write_report({.name = "summary",
+                       .markdown = markdown_of(scenario, runs),
+                       .csv = scores_csv(runs),
+                       .json = summary_json(scenario, runs),
+                       .latex = to_latex(score_table(runs))},
+                      folder);
 }
 
 }  // namespace aims

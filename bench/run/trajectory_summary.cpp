@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "bench/run/json_text.hpp"
+#include "bench/run/report.hpp"
 #include "bench/run/score_table.hpp"
 #include "bench/run/tables.hpp"
-#include "core/files/atomic_file.hpp"
 
 namespace aims {
 namespace {
@@ -124,14 +124,12 @@ RunRecord record_of(const TrajectoryScores& scores) {
 
 Result<void> write_trajectory_scores(const TrajectoryScores& scores, const fs::path& folder) {
   const RunRecord record = record_of(scores);
-  auto written = write_file_atomically(folder / "scores.json", json_text(record.scores, 2) + "\n");
-  if (written) written = write_csv(folder / "scores.csv", scores_csv({&record, 1}));
-  if (written) written = write_file_atomically(folder / "scores.md", markdown(scores));
-  if (written) {
-    written =
-        write_file_atomically(folder / "scores.tex", to_latex(trajectory_score_table(scores)));
-  }
-  return written;
+  return write_report({.name = "scores",
+                       .markdown = markdown(scores),
+                       .csv = scores_csv({&record, 1}),
+                       .json = record.scores,
+                       .latex = to_latex(trajectory_score_table(scores))},
+                      folder);
 }
 
 }  // namespace aims

@@ -7,7 +7,7 @@
 #include <array>
 #include <utility>
 
-#include "bench/run/json_values.hpp"
+#include "bench/run/json_text.hpp"
 
 namespace aims {
 namespace {

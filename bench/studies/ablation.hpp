@@ -20,21 +20,9 @@ namespace aims {
 /// Version of the layout of ablation.json; see docs/result-files.md.
 inline constexpr std::string_view kAblationSchema = "aims.ablation/2";
 
-/// The scores that an ablation compares.
-struct AblationScore {
-  const char* key;
-  const char* title;  ///< with its unit
-  int digits;
-};
-inline constexpr std::array<AblationScore, 7> kAblationScores = {{
-    {"ate_yaw_m", "ATE yaw [m]", 3},
-    {"ate_m", "ATE start [m]", 3},
-    {"heading_error_mrad", "heading [mrad]", 1},
-    {"m_list_percent.all", "M_list [%]", 3},
-    {"m_end_m", "M_end [m]", 3},
-    {"max_error_z_m", "max |z| [m]", 3},
-    {"weak_axis.all.nees", "NEES weak axis [-]", 2},
-}};
+/// The scores that an ablation compares: the headline ones, and the NEES along the weak axis.
+inline constexpr std::size_t kAblationCount = kHeadlineCount + 1;
+const std::array<Score, kAblationCount>& ablation_scores();
 
 struct AblationOptions {
   std::string estimator = "aims_d";    ///< spec of what is taken apart
@@ -47,9 +35,9 @@ struct AblationRow {
   std::string label;
   std::size_t runs = 0;
   std::size_t successes = 0;
-  SuccessRate strict;                                          ///< within 1 %
-  McNemarTest success_test;                                    ///< complete estimator first
-  std::array<PairedStatistics, kAblationScores.size()> cells;  ///< against the complete estimator
+  SuccessRate strict;                                  ///< within 1 %
+  McNemarTest success_test;                            ///< complete estimator first
+  std::array<PairedStatistics, kAblationCount> cells;  ///< against the complete estimator
 };
 
 struct AblationCase {
@@ -62,7 +50,7 @@ struct AblationEffect {
   std::string label;
   std::string changes;  ///< its settings, e.g. "ground_constraint.enabled=false"
   /// Geometric means over scenarios of the ratios; none without any.
-  std::array<std::optional<double>, kAblationScores.size()> ratios;
+  std::array<std::optional<double>, kAblationCount> ratios;
   std::optional<double> worst_ratio;  ///< of the ATE, over scenarios
   std::string worst_scenario;
 };

@@ -3,9 +3,9 @@
 
 #include "bench/run/code_version.hpp"
 #include "bench/run/json_text.hpp"
+#include "bench/run/report.hpp"
 #include "bench/run/score_record.hpp"
 #include "bench/studies/ablation.hpp"
-#include "core/files/atomic_file.hpp"
 #include "core/files/csv.hpp"
 
 namespace aims {
@@ -59,9 +59,9 @@ CsvTable csv_of(const Ablation& ablation) {
                   "change_low", "change_high", "count", "runs", "successes"});
   for (const AblationCase& each : ablation.cases) {
     for (const AblationRow& row : each.rows) {
-      for (std::size_t i = 0; i < kAblationScores.size(); ++i) {
+      for (std::size_t i = 0; i < kAblationCount; ++i) {
         const PairedStatistics& cell = row.cells[i];
-        table.add(each.scenario).add(row.label).add(kAblationScores[i].key);
+        table.add(each.scenario).add(row.label).add(ablation_scores()[i].key);
         table.add(cell.median).add(cell.worst).add(cell.ratio);
         table.add(cell.change).add(cell.interval.low).add(cell.interval.high);
         table.add(static_cast<std::int64_t>(cell.count)).add(static_cast<std::int64_t>(row.runs));
@@ -76,15 +76,15 @@ Json case_json(const AblationCase& each) {
   Json variants = Json::object();
   for (const AblationRow& row : each.rows) {
     Json scores = Json::object();
-    for (std::size_t i = 0; i < kAblationScores.size(); ++i) {
+    for (std::size_t i = 0; i < kAblationCount; ++i) {
       const PairedStatistics& cell = row.cells[i];
-      scores[kAblationScores[i].key] = {{"median", json_of(cell.median)},
-                                        {"worst", json_of(cell.worst)},
-                                        {"ratio", json_of(cell.ratio)},
-                                        {"change", cell.change},
-                                        {"change_low", json_of(cell.interval.low)},
-                                        {"change_high", json_of(cell.interval.high)},
-                                        {"count", cell.count}};
+      scores[ablation_scores()[i].key] = {{"median", json_of(cell.median)},
+                                          {"worst", json_of(cell.worst)},
+                                          {"ratio", json_of(cell.ratio)},
+                                          {"change", cell.change},
+                                          {"change_low", json_of(cell.interval.low)},
+                                          {"change_high", json_of(cell.interval.high)},
+                                          {"count", cell.count}};
     }
     const Interval interval = wilson_interval(row.successes, row.runs);
     variants[row.label] = {{"runs", row.runs},
@@ -105,8 +105,8 @@ Json ablation_json(const Ablation& ablation, const Suite& suite) {
                {"scenarios", Json::array()}};
   for (const AblationEffect& each : ablation.effects) {
     Json ratios = Json::object();
-    for (std::size_t i = 0; i < kAblationScores.size(); ++i) {
-      ratios[kAblationScores[i].key] = json_of(each.ratios[i]);
+    for (std::size_t i = 0; i < kAblationCount; ++i) {
+      ratios[ablation_scores()[i].key] = json_of(each.ratios[i]);
     }
     json["effects"][each.label] = {{"settings", each.changes},
                                    {"mean_ratio", std::move(ratios)},
@@ -123,7 +123,7 @@ Json ablation_json(const Ablation& ablation, const Suite& suite) {
 TextTable effect_table(const Ablation& ablation) {
   TextTable table;
   table.header = {"variant"};
-  for (const AblationScore& score : kAblationScores) table.header.emplace_back(score.title);
+  for (const Score& score : ablation_scores()) table.header.push_back(title_with_unit(score));
   table.header.insert(table.header.end(), {"largest of ATE yaw", "in"});
   for (const AblationEffect& each : ablation.effects) {
     std::vector<std::string> row = {each.label};
@@ -137,13 +137,13 @@ TextTable effect_table(const Ablation& ablation) {
 TextTable case_table(const AblationCase& each) {
   TextTable table;
   table.header = {"variant"};
-  for (const AblationScore& score : kAblationScores) table.header.emplace_back(score.title);
-  for (const SuccessScore& score : kSuccessScores) table.header.emplace_back(score.title);
+  for (const Score& score : ablation_scores()) table.header.push_back(title_with_unit(score));
+  for (const Score& score : success_scores()) table.header.emplace_back(score.title);
   table.header.emplace_back("McNemar's p");
   for (const AblationRow& row : each.rows) {
     std::vector<std::string> cells = {row.label};
-    for (std::size_t i = 0; i < kAblationScores.size(); ++i) {
-      cells.push_back(cell_text(row.cells[i], kAblationScores[i].digits));
+    for (std::size_t i = 0; i < kAblationCount; ++i) {
+      cells.push_back(cell_text(row.cells[i], ablation_scores()[i].digits));
     }
     cells.push_back(SuccessRate{row.successes, row.runs}.text());
     cells.push_back(row.strict.text());
@@ -155,13 +155,11 @@ TextTable case_table(const AblationCase& each) {
 
 Result<void> write_ablation(const Ablation& ablation, const Suite& suite,
                             const std::filesystem::path& folder) {
-  auto written = write_file_atomically(folder / "ablation.md", markdown_of(ablation, suite));
-  if (written) written = write_csv(folder / "ablation.csv", csv_of(ablation));
-  if (written) {
-    written = write_file_atomically(folder / "ablation.json",
-                                    json_text(ablation_json(ablation, suite), 2) + "\n");
-  }
-  return written;
+  return write_report({.name = "ablation",
+                       .markdown = markdown_of(ablation, suite),
+                       .csv = csv_of(ablation),
+                       .json = ablation_json(ablation, suite)},
+                      folder);
 }
 
 }  // namespace aims

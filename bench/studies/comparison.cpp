@@ -41,7 +41,7 @@ ScoreChange means_of(const ScorePairs& pairs, const char* key) {
   return change;
 }
 
-ScoreChange change_of(const ScorePairs& pairs, const HeadlineScore& score) {
+ScoreChange change_of(const ScorePairs& pairs, const Score& score) {
   const std::vector<double> differences = pairs.differences();
   ScoreChange change = means_of(pairs, score.key);
   change.worst_after = *std::ranges::max_element(pairs.value);
@@ -52,7 +52,7 @@ ScoreChange change_of(const ScorePairs& pairs, const HeadlineScore& score) {
   return change;
 }
 
-ScoreChange success_change_of(const ScorePairs& pairs, const SuccessScore& score) {
+ScoreChange success_change_of(const ScorePairs& pairs, const Score& score) {
   ScoreChange change = means_of(pairs, score.key);
   change.worst_after = *std::ranges::min_element(pairs.value);
   std::size_t lost = 0;
@@ -122,8 +122,8 @@ void compare_runs(const std::string& scenario, const std::vector<RunRecord>& bef
       comparison.expected_false_alarms += change.false_alarm;
       comparison.changes.push_back(std::move(change));
     };
-    for (const HeadlineScore& score : kHeadlineScores) add(score, change_of);
-    for (const SuccessScore& score : kSuccessScores) add(score, success_change_of);
+    for (const Score& score : headline_scores()) add(score, change_of);
+    for (const Score& score : success_scores()) add(score, success_change_of);
   }
 }
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/jobs/results.hpp"
+#include "bench/jobs/stored_results.hpp"
 #include "bench/metrics/paired_test.hpp"
 #include "bench/metrics/proportion.hpp"
 #include "bench/run/score_record.hpp"
@@ -52,7 +52,7 @@ struct Comparison {
 
 /// Pairs the valid runs of the same scenario, seed and estimator. A change is better or worse when
 /// the interval of `paired_test` excludes zero and the change exceeds both the score's own floor
-/// (kHeadlineScores) and 5 % of the value before; one of the successes, when McNemar's exact p is
+/// (headline_scores()) and 5 % of the value before; one of the successes, when McNemar's exact p is
 /// at most 0.05.
 Comparison compare(const StoredResults& before, const StoredResults& after);
 

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <iterator>
 #include <set>
-#include <system_error>
 
 #include "bench/run/json_text.hpp"
+#include "bench/run/report.hpp"
 #include "bench/studies/comparison.hpp"
-#include "core/files/atomic_file.hpp"
 
 namespace aims {
 namespace {
@@ -167,14 +166,10 @@ TextTable change_table(const Comparison& comparison) {
 
 Result<void> write_comparison(const Comparison& comparison, const std::string& before,
                               const std::string& after, const fs::path& folder) {
-  std::error_code code;
-  fs::create_directories(folder, code);
-  if (code) return failure(fmt::format("{}: {}", folder.string(), code.message()));
-  auto written = write_file_atomically(
-      folder / "compare.json", json_text(comparison_json(comparison, before, after), 2) + "\n");
-  if (!written) return written;
-  return write_file_atomically(folder / "compare.md",
-                               comparison_markdown(comparison, before, after));
+  return write_report({.name = "compare",
+                       .markdown = comparison_markdown(comparison, before, after),
+                       .json = comparison_json(comparison, before, after)},
+                      folder);
 }
 
 }  // namespace aims

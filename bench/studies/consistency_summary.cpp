@@ -3,9 +3,9 @@
 
 #include "bench/run/code_version.hpp"
 #include "bench/run/json_text.hpp"
+#include "bench/run/report.hpp"
 #include "bench/run/score_record.hpp"
 #include "bench/studies/consistency_study.hpp"
-#include "core/files/atomic_file.hpp"
 #include "core/files/csv.hpp"
 
 namespace aims {
@@ -171,13 +171,11 @@ TextTable end_table(const ConsistencyStudy& study) {
 
 Result<void> write_consistency(const ConsistencyStudy& study, const Suite& suite,
                                const fs::path& folder) {
-  auto written = write_file_atomically(folder / "consistency.md", markdown_of(study, suite));
-  if (written) written = write_csv(folder / "consistency.csv", csv_of(study));
-  if (written) {
-    written = write_file_atomically(folder / "consistency.json",
-                                    json_text(study_json(study, suite), 2) + "\n");
-  }
-  return written;
+  return write_report({.name = "consistency",
+                       .markdown = markdown_of(study, suite),
+                       .csv = csv_of(study),
+                       .json = study_json(study, suite)},
+                      folder);
 }
 
 }  // namespace aims

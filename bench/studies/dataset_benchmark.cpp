@@ -14,8 +14,8 @@
 #include "bench/run/code_version.hpp"
 #include "bench/run/estimate_summary.hpp"
 #include "bench/run/json_text.hpp"
+#include "bench/run/report.hpp"
 #include "bench/studies/suite_summary.hpp"
-#include "core/files/atomic_file.hpp"
 #include "core/files/config_dump.hpp"
 
 namespace aims {
@@ -220,13 +220,10 @@ Json benchmark_json(const DatasetBenchmark& benchmark) {
 }
 
 Result<void> write_benchmark(const DatasetBenchmark& benchmark, const fs::path& folder) {
-  auto written = write_suite(benchmark.suite, folder);
-  if (written) written = write_file_atomically(folder / "benchmark.md", markdown(benchmark));
-  if (written) {
-    written = write_file_atomically(folder / "benchmark.json",
-                                    json_text(benchmark_json(benchmark), 2) + "\n");
-  }
-  return written;
+  if (auto written = write_suite(benchmark.suite, folder); !written) return written;
+  return write_report(
+      {.name = "benchmark", .markdown = markdown(benchmark), .json = benchmark_json(benchmark)},
+      folder);
 }
 
 }  // namespace aims

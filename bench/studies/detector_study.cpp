@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "bench/jobs/sequence_cache.hpp"
-#include "bench/run/results.hpp"
+#include "bench/run/estimator_files.hpp"
 #include "bench/run/run_localizability.hpp"
 #include "bench/run/tables.hpp"
 #include "bench/studies/detector_summary.hpp"

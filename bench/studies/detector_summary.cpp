@@ -7,7 +7,7 @@
 #include <set>
 
 #include "bench/run/json_text.hpp"
-#include "core/files/atomic_file.hpp"
+#include "bench/run/report.hpp"
 #include "core/files/csv.hpp"
 
 namespace aims {
@@ -178,13 +178,11 @@ std::vector<std::string> undecided_levels(std::span<const DetectorScore> scores)
 }
 
 Result<void> write_detectors(const DetectorStudy& study, const fs::path& folder) {
-  auto written =
-      write_file_atomically(folder / "detectors.json", json_text(study_json(study), 2) + "\n");
-  if (written) written = write_csv(folder / "detectors.csv", study_csv(study));
-  if (written) {
-    written = write_file_atomically(folder / "detectors.md", study_markdown(study));
-  }
-  return written;
+  return write_report({.name = "detectors",
+                       .markdown = study_markdown(study),
+                       .csv = study_csv(study),
+                       .json = study_json(study)},
+                      folder);
 }
 
 }  // namespace aims

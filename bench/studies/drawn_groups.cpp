@@ -7,12 +7,11 @@
 #include <map>
 #include <set>
 #include <span>
-#include <system_error>
 
 #include "bench/run/json_text.hpp"
+#include "bench/run/report.hpp"
 #include "bench/run/validity.hpp"
 #include "core/config.hpp"
-#include "core/files/atomic_file.hpp"
 
 namespace aims {
 namespace {
@@ -39,7 +38,7 @@ GroupScores scores_of(std::span<const RunRecord> runs, const std::string& estima
   scores.runs = finished(runs, estimator);
   scores.successes = successes(runs, estimator);
   scores.strict = success_rate(runs, estimator, kStrictSuccessKey);
-  for (const HeadlineScore& score : kHeadlineScores) {
+  for (const Score& score : headline_scores()) {
     scores.medians.push_back(statistics_of(runs, estimator, score.key).median);
   }
   return scores;
@@ -148,8 +147,8 @@ Result<std::vector<DrawnGroup>> group_by_drawn(const StoredResults& results, con
 TextTable groups_table(const std::vector<DrawnGroup>& groups) {
   TextTable table;
   table.header = {"scenario", "group", "estimator"};
-  for (const SuccessScore& score : kSuccessScores) table.header.emplace_back(score.title);
-  for (const HeadlineScore& score : kHeadlineScores) {
+  for (const Score& score : success_scores()) table.header.emplace_back(score.title);
+  for (const Score& score : headline_scores()) {
     table.header.push_back(fmt::format("{} [{}]", score.title, score.unit));
   }
   for (const DrawnGroup& group : groups) {
@@ -157,9 +156,9 @@ TextTable groups_table(const std::vector<DrawnGroup>& groups) {
       std::vector<std::string> row = {group.scenario, group.label, each.estimator,
                                       SuccessRate{each.successes, each.runs}.text(),
                                       each.strict.text()};
-      for (std::size_t i = 0; i < kHeadlineScores.size(); ++i) {
+      for (std::size_t i = 0; i < kHeadlineCount; ++i) {
         const auto& median = each.medians[i];
-        row.push_back(median ? fmt::format("{:.{}f}", *median, kHeadlineScores[i].digits) : "-");
+        row.push_back(median ? fmt::format("{:.{}f}", *median, headline_scores()[i].digits) : "-");
       }
       table.rows.push_back(std::move(row));
     }
@@ -171,7 +170,7 @@ CsvTable groups_csv(const std::vector<DrawnGroup>& groups) {
   std::vector<std::string> header = {"scenario",  "group", "low",       "high",
                                      "estimator", "runs",  "successes", "successes_1_percent",
                                      "invalid"};
-  for (const HeadlineScore& score : kHeadlineScores) {
+  for (const Score& score : headline_scores()) {
     header.push_back(std::string(score.key) + ".median");
   }
   CsvTable table(header);
@@ -208,8 +207,8 @@ Json groups_json(const std::vector<DrawnGroup>& groups, const std::string& key,
                {"success_high", json_of(interval.high)},
                {"successes_1_percent", each.strict.count},
                {"median", Json::object()}};
-      for (std::size_t i = 0; i < kHeadlineScores.size(); ++i) {
-        entry["median"][std::string(kHeadlineScores[i].key)] = json_of(each.medians[i]);
+      for (std::size_t i = 0; i < kHeadlineCount; ++i) {
+        entry["median"][std::string(headline_scores()[i].key)] = json_of(each.medians[i]);
       }
     }
     json["groups"].push_back({{"scenario", group.scenario},
@@ -224,16 +223,12 @@ Json groups_json(const std::vector<DrawnGroup>& groups, const std::string& key,
 
 Result<void> write_groups(const std::vector<DrawnGroup>& groups, const std::string& key,
                           const std::string& source, const fs::path& folder) {
-  std::error_code code;
-  fs::create_directories(folder, code);
-  if (code) return failure(fmt::format("{}: {}", folder.string(), code.message()));
-  auto written = write_file_atomically(folder / "groups.json",
-                                       json_text(groups_json(groups, key, source), 2) + "\n");
-  if (written) written = write_csv(folder / "groups.csv", groups_csv(groups));
-  if (!written) return written;
-  return write_file_atomically(
-      folder / "groups.md",
-      fmt::format("# {} by {}\n\n{}", source, key, to_markdown(groups_table(groups))));
+  return write_report(
+      {.name = "groups",
+       .markdown = fmt::format("# {} by {}\n\n{}", source, key, to_markdown(groups_table(groups))),
+       .csv = groups_csv(groups),
+       .json = groups_json(groups, key, source)},
+      folder);
 }
 
 }  // namespace aims

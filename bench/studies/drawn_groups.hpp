@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/jobs/results.hpp"
+#include "bench/jobs/stored_results.hpp"
 #include "bench/run/score_statistics.hpp"
 #include "core/error.hpp"
 #include "core/files/csv.hpp"
@@ -24,7 +24,7 @@ struct GroupScores {
   std::size_t runs = 0;  ///< valid ones in which it finished
   std::size_t successes = 0;
   SuccessRate strict;                          ///< within 1 %
-  std::vector<std::optional<double>> medians;  ///< in the order of `kHeadlineScores`
+  std::vector<std::optional<double>> medians;  ///< in the order of `headline_scores()`
 };
 
 /// Runs of one scenario whose drawn value is the same or lies in one bin.

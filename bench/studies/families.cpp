@@ -7,7 +7,7 @@
 #include <map>
 
 #include "bench/metrics/statistics.hpp"
-#include "bench/run/json_values.hpp"
+#include "bench/run/json_text.hpp"
 #include "bench/run/score_statistics.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "estimator/estimator_spec.hpp"

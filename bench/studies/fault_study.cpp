@@ -11,8 +11,8 @@
 #include <set>
 
 #include "bench/run/evaluate.hpp"
+#include "bench/run/report.hpp"
 #include "bench/run/stream.hpp"
-#include "core/files/atomic_file.hpp"
 #include "core/files/csv.hpp"
 
 namespace aims {
@@ -183,15 +183,13 @@ Result<void> write_faults(const std::vector<FaultCase>& cases, const std::string
     csv.add(each.alarm_fraction).add(each.silent);
     csv.end_row();
   }
-  auto written = write_csv(folder / "faults.csv", csv);
-  if (!written) return written;
   const auto silent = std::ranges::count_if(cases, &FaultCase::silent);
   const std::string text = fmt::format(
       "# Faults on {}\n\n{} of {} cases fail unnoticed (SILENT). Cells: ATE [m] and the worst "
       "state "
       "that the estimator reported.\n\n{}",
       sequence, silent, cases.size(), to_markdown(fault_table(cases)));
-  return write_file_atomically(folder / "faults.md", text);
+  return write_report({.name = "faults", .markdown = text, .csv = csv}, folder);
 }
 
 }  // namespace aims

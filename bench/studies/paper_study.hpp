@@ -13,12 +13,42 @@
 #include "bench/metrics/bootstrap.hpp"
 #include "bench/run/score_record.hpp"
 #include "bench/run/score_statistics.hpp"
-#include "bench/studies/paper_tables.hpp"
 #include "bench/studies/suite.hpp"
 #include "core/error.hpp"
 #include "core/files/table.hpp"
 
 namespace aims {
+
+/// A column of a table of the paper.
+struct PaperScore {
+  std::string key;    ///< of the score here, e.g. "m_list_percent.a-b"
+  std::string title;  ///< with its unit
+};
+
+/// A compared system and its figures in the paper.
+struct PaperMethod {
+  std::string estimator;  ///< its name here
+  std::string name;       ///< in the paper; empty: it is not there
+  /// By column; none where the paper has "-", or is silent.
+  std::vector<std::optional<double>> figures;
+};
+
+/// Table I or II of the paper (Adaptive Inspection Multisensor SLAM, section IV).
+struct PaperTable {
+  std::string scenario;
+  std::string title;
+  std::vector<PaperScore> scores;
+  std::vector<PaperMethod> methods;  ///< those of the paper in its order, then the others
+};
+
+/// Both tables.
+const std::vector<PaperTable>& paper_tables();
+
+/// The table of a scenario; null without one.
+const PaperTable* paper_table_of(const std::string& scenario);
+
+/// Names of the estimators of the tables.
+std::vector<std::string> paper_estimators();
 
 /// Version of the layout of paper.json; see docs/result-files.md.
 inline constexpr std::string_view kPaperSchema = "aims.paper/1";
@@ -31,7 +61,7 @@ struct PaperCell {
   std::optional<double> worst;   ///< likewise
 };
 
-/// How many of `kHeadlineScores` stand beside those of the paper: the ATE in both alignments and
+/// How many of `headline_scores()` stand beside those of the paper: the ATE in both alignments and
 /// the heading error, which its tables do not have.
 inline constexpr std::size_t kPaperHeadline = 3;
 

@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include "bench/run/json_text.hpp"
+#include "bench/run/report.hpp"
 #include "bench/run/score_statistics.hpp"
 #include "bench/studies/paper_study.hpp"
-#include "core/files/atomic_file.hpp"
 #include "core/files/csv.hpp"
 
 namespace aims {
@@ -52,7 +52,7 @@ Json system_json(const PaperSystem& system) {
   for (const PaperCell& cell : system.cells) cells.push_back(cell_json(cell));
   Json headline = Json::object();
   for (std::size_t i = 0; i < system.headline.size(); ++i) {
-    headline[kHeadlineScores[i].key] = json_of(system.headline[i]);
+    headline[headline_scores()[i].key] = json_of(system.headline[i]);
   }
   const Interval interval = wilson_interval(system.successes, system.runs);
   return {{"estimator", system.estimator},
@@ -122,9 +122,10 @@ std::string paper_markdown(const std::vector<PaperExperiment>& experiments, cons
 TextTable system_table(const PaperExperiment& experiment) {
   TextTable table;
   table.header = {"system", "in the paper"};
-  for (const SuccessScore& score : kSuccessScores) table.header.emplace_back(score.title);
+  for (const Score& score : success_scores()) table.header.emplace_back(score.title);
   for (std::size_t i = 0; i < kPaperHeadline; ++i) {
-    table.header.push_back(fmt::format("{} {}", kHeadlineScores[i].title, kHeadlineScores[i].unit));
+    table.header.push_back(
+        fmt::format("{} {}", headline_scores()[i].title, headline_scores()[i].unit));
   }
   for (const PaperOrder& order : experiment.orders) table.header.push_back(order.score.title);
   for (const PaperSystem& system : experiment.systems) {
@@ -134,7 +135,7 @@ TextTable system_table(const PaperExperiment& experiment) {
                                     system.strict.text()};
     for (std::size_t i = 0; i < system.headline.size(); ++i) {
       row.push_back(system.headline[i]
-                        ? fmt::format("{:.{}f}", *system.headline[i], kHeadlineScores[i].digits)
+                        ? fmt::format("{:.{}f}", *system.headline[i], headline_scores()[i].digits)
                         : "–");
     }
     for (const PaperCell& cell : system.cells) row.push_back(paper_cell_text(cell, in_paper));
@@ -163,13 +164,11 @@ Json paper_json(const std::vector<PaperExperiment>& experiments) {
 
 Result<void> write_paper(const std::vector<PaperExperiment>& experiments, const Suite& suite,
                          const fs::path& folder) {
-  auto written =
-      write_file_atomically(folder / "paper.json", json_text(paper_json(experiments), 2) + "\n");
-  if (written) written = write_csv(folder / "paper.csv", paper_csv(experiments));
-  if (written) {
-    written = write_file_atomically(folder / "paper.md", paper_markdown(experiments, suite));
-  }
-  return written;
+  return write_report({.name = "paper",
+                       .markdown = paper_markdown(experiments, suite),
+                       .csv = paper_csv(experiments),
+                       .json = paper_json(experiments)},
+                      folder);
 }
 
 }  // namespace aims

@@ -4,9 +4,9 @@
 #include "bench/metrics/proportion.hpp"
 #include "bench/run/code_version.hpp"
 #include "bench/run/json_text.hpp"
+#include "bench/run/report.hpp"
 #include "bench/run/score_record.hpp"
 #include "bench/studies/sensitivity.hpp"
-#include "core/files/atomic_file.hpp"
 #include "core/files/csv.hpp"
 
 namespace aims {
@@ -104,12 +104,11 @@ TextTable sensitivity_table(const SettingSensitivity& sensitivity) {
 
 Result<void> write_sensitivity(const SettingSensitivity& sensitivity, const Suite& suite,
                                const std::filesystem::path& folder) {
-  auto written =
-      write_file_atomically(folder / "sensitivity.md", sensitivity_markdown(sensitivity, suite));
-  if (written) written = write_csv(folder / "sensitivity.csv", sensitivity_csv(sensitivity));
-  if (!written) return written;
-  return write_file_atomically(folder / "sensitivity.json",
-                               json_text(sensitivity_json(sensitivity, suite), 2) + "\n");
+  return write_report({.name = "sensitivity",
+                       .markdown = sensitivity_markdown(sensitivity, suite),
+                       .csv = sensitivity_csv(sensitivity),
+                       .json = sensitivity_json(sensitivity, suite)},
+                      folder);
 }
 
 }  // namespace aims

@@ -37,8 +37,8 @@ std::vector<SuccessPair> success_pairs(const Suite& suite) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     for (std::size_t j = i + 1; j < names.size(); ++j) {
       SuccessPair pair{names[i], names[j], 0, {}};
-      for (std::size_t k = 0; k < kSuccessScores.size(); ++k) {
-        const Counts counts = counts_of(suite, names[i], names[j], kSuccessScores[k].key);
+      for (std::size_t k = 0; k < kSuccessCount; ++k) {
+        const Counts counts = counts_of(suite, names[i], names[j], success_scores()[k].key);
         if (k == 0) pair.sequences = counts.sequences;
         pair.tests[k] = mcnemar_test(counts.only_first, counts.only_second);
       }
@@ -52,10 +52,10 @@ Json success_pairs_json(const std::vector<SuccessPair>& pairs) {
   Json json = Json::array();
   for (const SuccessPair& pair : pairs) {
     Json tests = Json::object();
-    for (std::size_t k = 0; k < kSuccessScores.size(); ++k) {
-      tests[kSuccessScores[k].key] = {{"only_first", pair.tests[k].only_first},
-                                      {"only_second", pair.tests[k].only_second},
-                                      {"p", pair.tests[k].p}};
+    for (std::size_t k = 0; k < kSuccessCount; ++k) {
+      tests[success_scores()[k].key] = {{"only_first", pair.tests[k].only_first},
+                                        {"only_second", pair.tests[k].only_second},
+                                        {"p", pair.tests[k].p}};
     }
     json.push_back({{"first", pair.first},
                     {"second", pair.second},

@@ -16,7 +16,7 @@ struct SuccessPair {
   std::string first;
   std::string second;
   std::size_t sequences = 0;
-  std::array<McNemarTest, kSuccessScores.size()> tests;  ///< in the order of `kSuccessScores`
+  std::array<McNemarTest, kSuccessCount> tests;  ///< in the order of `success_scores()`
 };
 
 /// Every pair of estimators with a common sequence.

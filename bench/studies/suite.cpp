@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "bench/jobs/results.hpp"
+#include "bench/jobs/stored_results.hpp"
 
 namespace aims {
 namespace {

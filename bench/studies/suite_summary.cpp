@@ -5,7 +5,7 @@
 
 #include "bench/run/code_version.hpp"
 #include "bench/run/json_text.hpp"
-#include "bench/run/json_values.hpp"
+#include "bench/run/report.hpp"
 #include "bench/studies/families.hpp"
 #include "bench/studies/success_pairs.hpp"
 #include "bench/studies/suite_tables.hpp"
@@ -28,8 +28,8 @@ Json scores_json(std::span<const RunRecord> runs, const std::string& estimator) 
     Json score = {{"median", json_of(summary.median)},
                   {"worst", json_of(summary.worst)},
                   {"count", summary.count}};
-    const bool headline = std::any_of(kHeadlineScores.begin(), kHeadlineScores.end(),
-                                      [&](const HeadlineScore& each) { return each.key == key; });
+    const bool headline = std::any_of(headline_scores().begin(), headline_scores().end(),
+                                      [&](const Score& each) { return each.key == key; });
     if (headline) {
       const Interval interval = median_interval(runs, estimator, key);
       score["median_low"] = json_of(interval.low);
@@ -131,17 +131,15 @@ bool holds_suite(const std::filesystem::path& folder) {
 
 Result<void> write_suite(const Suite& suite, const std::filesystem::path& folder) {
   const std::vector<FamilyResult> families = family_results(suite);
-  auto written = write_csv(folder / "suite.csv", suite_csv(suite));
-  if (written) written = write_csv(folder / "timings.csv", timings_csv(suite));
-  if (written) {
-    written = write_file_atomically(folder / "suite.md", suite_markdown(suite, families));
+  if (auto written = write_csv(folder / "timings.csv", timings_csv(suite)); !written) {
+    return written;
   }
-  if (written) written = write_file_atomically(folder / "suite.tex", suite_latex(suite));
-  if (written) {
-    written =
-        write_file_atomically(folder / "suite.json", json_text(suite_document(suite), 2) + "\n");
-  }
-  return written;
+  return write_report({.name = "suite",
+                       .markdown = suite_markdown(suite, families),
+                       .csv = suite_csv(suite),
+                       .json = suite_document(suite),
+                       .latex = suite_latex(suite)},
+                      folder);
 }
 
 }  // namespace aims

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "bench/run/json_values.hpp"
+#include "bench/run/json_text.hpp"
 #include "bench/studies/success_pairs.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "estimator/estimator_spec.hpp"
@@ -24,8 +24,7 @@ std::string invalid_cell(const SuiteCase& each, const std::string& estimator) {
   return any ? "invalid" : "";
 }
 
-std::string headline_cell(const SuiteCase& each, const std::string& estimator,
-                          const HeadlineScore& score) {
+std::string headline_cell(const SuiteCase& each, const std::string& estimator, const Score& score) {
   if (!ran(each, estimator)) return invalid_cell(each, estimator);
   const ScoreStatistics summary = statistics_of(each.runs, estimator, score.key);
   if (!summary.median) return "-";
@@ -84,7 +83,7 @@ std::string success_markdown(const Suite& suite) {
   std::string text =
       "\n## Success\n\nRuns whose position error stayed within a percentage of the distance "
       "travelled, of all valid\nones, with the 95 % Wilson interval.\n";
-  for (const SuccessScore& score : kSuccessScores) {
+  for (const Score& score : success_scores()) {
     text += fmt::format("\n### Success {}\n\n{}", score.title,
                         to_markdown(success_table(suite, score)));
   }
@@ -105,13 +104,13 @@ std::string failures_markdown(const Suite& suite) {
 
 }  // namespace
 
-TextTable headline_table(const Suite& suite, const HeadlineScore& score) {
+TextTable headline_table(const Suite& suite, const Score& score) {
   return matrix(suite, [&](const SuiteCase& each, const std::string& estimator) {
     return headline_cell(each, estimator, score);
   });
 }
 
-TextTable success_table(const Suite& suite, const SuccessScore& score) {
+TextTable success_table(const Suite& suite, const Score& score) {
   return matrix(suite, [&](const SuiteCase& each, const std::string& estimator) {
     if (!ran(each, estimator)) return invalid_cell(each, estimator);
     return success_rate(each.runs, estimator, score.key).text();
@@ -121,7 +120,7 @@ TextTable success_table(const Suite& suite, const SuccessScore& score) {
 TextTable success_pairs_table(const Suite& suite, bool all) {
   TextTable table;
   table.header = {"estimators", "sequences"};
-  for (const SuccessScore& score : kSuccessScores) {
+  for (const Score& score : success_scores()) {
     table.header.push_back(fmt::format("{}: first alone", score.title));
     table.header.emplace_back("second alone");
     table.header.emplace_back("p");
@@ -164,7 +163,7 @@ std::string suite_markdown(const Suite& suite, const std::vector<FamilyResult>& 
   text +=
       "Each cell: median [95 % bootstrap interval of the median] worst, over seeds. Below about\n"
       "ten seeds the intervals are coarse and too narrow; with one seed there are none.\n";
-  for (const HeadlineScore& score : kHeadlineScores) {
+  for (const Score& score : headline_scores()) {
     text += fmt::format("\n## {} [{}]\n\n{}", score.title, score.unit,
                         to_markdown(headline_table(suite, score)));
   }
@@ -184,11 +183,11 @@ std::string suite_markdown(const Suite& suite, const std::vector<FamilyResult>& 
 
 std::string suite_latex(const Suite& suite) {
   std::string text;
-  for (const HeadlineScore& score : kHeadlineScores) {
+  for (const Score& score : headline_scores()) {
     text += fmt::format("% {} [{}]: median [95 % bootstrap interval] worst\n{}\n", score.title,
                         score.unit, to_latex(headline_table(suite, score)));
   }
-  for (const SuccessScore& score : kSuccessScores) {
+  for (const Score& score : success_scores()) {
     text += fmt::format("% success {} of the distance, 95 % Wilson interval\n{}\n", score.title,
                         to_latex(success_table(suite, score)));
   }

@@ -13,10 +13,10 @@
 namespace aims {
 
 /// Scenario x estimator of one score: "median [low, high] worst" over seeds.
-TextTable headline_table(const Suite& suite, const HeadlineScore& score);
+TextTable headline_table(const Suite& suite, const Score& score);
 
 /// Scenario x estimator: successes of all runs, with their interval.
-TextTable success_table(const Suite& suite, const SuccessScore& score);
+TextTable success_table(const Suite& suite, const Score& score);
 
 /// Pairs of estimators over all their common sequences: on how many each alone is a success, and
 /// McNemar's p. Only pairs that differ; `all` has the others, too.

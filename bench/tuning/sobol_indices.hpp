@@ -32,9 +32,9 @@ struct FractionalIndices {
   bool with_pairs = false;
 };
 
-/// An analysis of variance by least squares: an effect of each level of each input, and of each pair
-/// of levels where the points determine them and predict better with them. None for inputs with
-/// fewer than two points per level (those are no grid), or too few points for the effects.
+/// An analysis of variance by least squares: an effect of each level of each input, and of each
+/// pair of levels where the points determine them and predict better with them. None for inputs
+/// with fewer than two points per level (those are no grid), or too few points for the effects.
 std::optional<FractionalIndices> fractional_indices(const Eigen::MatrixXd& points,
                                                     const Eigen::VectorXd& values);
 

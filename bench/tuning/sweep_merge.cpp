@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "bench/run/json_values.hpp"
+#include "bench/run/json_text.hpp"
 #include "bench/run/validity.hpp"
 #include "bench/tuning/sweep_store.hpp"
 #include "core/files/csv.hpp"

@@ -9,7 +9,7 @@
 #include <optional>
 #include <system_error>
 
-#include "bench/run/json_values.hpp"
+#include "bench/run/json_text.hpp"
 
 namespace aims {
 namespace {

@@ -7,8 +7,8 @@
 #include <memory>
 #include <optional>
 
-#include "bench/jobs/results.hpp"
 #include "bench/jobs/sequence_cache.hpp"
+#include "bench/jobs/stored_results.hpp"
 #include "bench/run/catalogue.hpp"
 #include "bench/run/evaluate.hpp"
 #include "bench/run/sequence_record.hpp"

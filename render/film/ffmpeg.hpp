@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/error.hpp"
-#include "render/film/movie.hpp"
+#include "render/film/film_movie.hpp"
 
 namespace aims {
 

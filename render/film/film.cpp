@@ -13,7 +13,7 @@
 #include "render/plots/canvas.hpp"
 #include "render/plots/map_picture.hpp"
 #include "render/plots/palette.hpp"
-#include "render/plots/roof_cut.hpp"
+#include "render/plots/scene_plan.hpp"
 #include "render/scene/scene_edges.hpp"
 #include "render/scene/scene_view.hpp"
 #include "sim/environment/scene_mjcf.hpp"

@@ -8,6 +8,7 @@
 #include "core/measurements.hpp"
 #include "core/trajectory.hpp"
 #include "estimator/lidar/voxel_hash.hpp"
+#include "sim/environment/scene.hpp"
 
 namespace aims {
 
@@ -64,5 +65,11 @@ class MapGrowth {
   std::vector<GrownPoint> points_;
   std::vector<PlacedScan> placed_;
 };
+
+/// For each return of a scan whether it came from a person, by the true poses of robot
+/// (`truth`, T_world_body) and people at its firing time. Empty in a scene without people. For
+/// pictures: no estimator has this.
+std::vector<bool> moving_returns(const LidarScan& scan, const Scene& scene, const Trajectory& truth,
+                                 const Pose& T_body_lidar);
 
 }  // namespace aims

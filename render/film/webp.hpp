@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/error.hpp"
-#include "render/film/movie.hpp"
+#include "render/film/film_movie.hpp"
 
 namespace aims {
 

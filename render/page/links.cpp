@@ -34,4 +34,12 @@ Result<void> check_links(const fs::path& folder) {
   return {};
 }
 
+std::string folder_name(const fs::path& folder) {
+  std::error_code ignored;
+  fs::path full = fs::weakly_canonical(folder, ignored);
+  if (ignored) full = folder;
+  if (!full.has_filename()) full = full.parent_path();
+  return full.filename().string();
+}
+
 }  // namespace aims

@@ -11,4 +11,7 @@ namespace aims {
 /// must not show files of its reader.
 Result<void> check_links(const std::filesystem::path& folder);
 
+/// The last part of a folder's path, as its name in titles; "." and links are followed.
+std::string folder_name(const std::filesystem::path& folder);
+
 }  // namespace aims

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <unordered_set>
 
-#include "render/plots/roof_cut.hpp"
+#include "render/plots/scene_plan.hpp"
 
 namespace aims {
 namespace {

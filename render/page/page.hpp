@@ -7,7 +7,7 @@
 
 #include "bench/run/draw_observer.hpp"
 #include "core/error.hpp"
-#include "render/page/page_options.hpp"
+#include "render/page/page_data.hpp"
 
 namespace aims {
 

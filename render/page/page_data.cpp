@@ -2,17 +2,69 @@
 #include "render/page/page_data.hpp"
 
 #include <zlib.h>
-
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cmath>
 #include <cstring>
+#include <limits>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "bench/run/json_text.hpp"
+#include "core/files/atomic_file.hpp"
 
 namespace aims {
+
+namespace {
+
+constexpr double kLargestCode = kNoCode - 1;
+constexpr double kLogarithmicFrom = 1000.0;  ///< ratio of the largest value to the smallest
+
+/// Median of the absolute values that are neither zero nor NaN; infinite without any.
+double typical_size(std::span<const double> values) {
+  std::vector<double> sizes;
+  for (const double value : values) {
+    if (std::abs(value) > 0.0) sizes.push_back(std::abs(value));
+  }
+  if (sizes.empty()) return std::numeric_limits<double>::infinity();
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return *middle;
+}
+
+}  // namespace
+
+std::optional<QuantizedColumn> quantized(std::span<const double> values,
+                                         const Precision& precision) {
+  double min = std::numeric_limits<double>::infinity();
+  double max = -min;
+  for (const double value : values) {
+    if (std::isnan(value)) continue;
+    if (std::isinf(value)) return std::nullopt;
+    min = std::min(min, value);
+    max = std::max(max, value);
+  }
+  QuantizedColumn column;
+  if (!(min <= max)) min = max = 0.0;
+  column.logarithmic = precision.relative > 0.0 && min > 0.0 && max / min > kLogarithmicFrom;
+  const auto law = [&](double value) { return column.logarithmic ? std::log(value) : value; };
+  column.low = law(min);
+  column.step = std::max((law(max) - column.low) / kLargestCode, precision.least_step);
+  if (precision.relative > 0.0) {
+    const double reach = column.logarithmic ? 1.0 : typical_size(values);
+    if (column.step / 2.0 > precision.relative * reach) return std::nullopt;
+  }
+  column.codes.reserve(values.size());
+  for (const double value : values) {
+    const double code = column.step > 0.0 ? (law(value) - column.low) / column.step : 0.0;
+    column.codes.push_back(std::isnan(value) ? kNoCode
+                                             : static_cast<std::uint16_t>(std::lround(code)));
+  }
+  return column;
+}
+
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "arrays go out as the memory has them");
@@ -139,6 +191,31 @@ std::string base64(std::string_view bytes) {
     }
   }
   return text;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
+
+}  // namespace
+
+Result<Json> pictures_json(const fs::path& folder, const std::vector<PagePicture>& pictures,
+                           std::uintmax_t largest, Json& notes) {
+  Json list = Json::array();
+  for (const auto& [name, title] : pictures) {
+    const fs::path file = folder / (name + ".png");
+    if (!fs::is_regular_file(file) || fs::file_size(file) > largest) continue;
+    const auto bytes = read_file(file);
+    if (!bytes) return tl::unexpected(bytes.error());
+    if (!bytes->starts_with(kPngSignature)) {
+      notes.push_back(file.filename().string() + " is no PNG picture and is left out.");
+      continue;
+    }
+    list.push_back({{"name", name}, {"title", title}, {"png", base64(*bytes)}});
+  }
+  return list;
 }
 
 }  // namespace aims

@@ -2,15 +2,42 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
-#include "render/page/quantized.hpp"
+#include "bench/run/score_record.hpp"
+#include "core/error.hpp"
 
 namespace aims {
+
+/// Code of NaN in a quantized column.
+inline constexpr std::uint16_t kNoCode = 65535;
+
+/// A column as 16-bit codes: value = low + step * code, or exp of that.
+struct QuantizedColumn {
+  bool logarithmic = false;
+  double low = 0.0;
+  double step = 0.0;
+  std::vector<std::uint16_t> codes;  ///< `kNoCode`: NaN
+};
+
+/// How exact a quantized column must be.
+struct Precision {
+  double least_step = 0.0;  ///< no finer steps than this, in the unit of the values
+  /// Half of the values that are not zero must be exact to this fraction; 0: whatever the range is.
+  double relative = 1e-3;
+};
+
+/// The codes of a column: linear over its range, or logarithmic where all values are positive and
+/// span more than three decades. None when that misses the precision, or a value is infinite.
+std::optional<QuantizedColumn> quantized(std::span<const double> values,
+                                         const Precision& precision = {});
 
 /// Version of the layout of a page's data; see web/src/contract.ts.
 inline constexpr std::string_view kPageSchema = "aims.page/2";
@@ -59,5 +86,24 @@ std::string payload_text(const PageData& page);
 
 /// Bytes as base64 (RFC 4648, with padding).
 std::string base64(std::string_view bytes);
+
+/// What a page shows besides its own folder.
+struct PageOptions {
+  std::filesystem::path against;     ///< results to hold a suite against; empty: none
+  std::filesystem::path detectors;   ///< folder of `aims detectors`; empty: the suite's own, if any
+  std::filesystem::path out_folder;  ///< where the page will lie: links are relative to it
+};
+
+/// A picture that a page shows: its file without ".png", and what it is.
+struct PagePicture {
+  std::string name;
+  std::string title;
+};
+
+/// Those of the pictures that `folder` holds, for a page. One beyond `largest` [bytes] is left out;
+/// so is one that is no PNG, which becomes a note.
+Result<Json> pictures_json(const std::filesystem::path& folder,
+                           const std::vector<PagePicture>& pictures, std::uintmax_t largest,
+                           Json& notes);
 
 }  // namespace aims

@@ -9,7 +9,7 @@
 #include <map>
 #include <utility>
 
-#include "bench/jobs/results.hpp"
+#include "bench/jobs/stored_results.hpp"
 #include "bench/metrics/association.hpp"
 #include "bench/run/estimate.hpp"
 #include "bench/run/json_text.hpp"

@@ -9,17 +9,17 @@
 #include <utility>
 #include <vector>
 
+#include "bench/run/json_text.hpp"
 #include "bench/run/start_anchor.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/series_style.hpp"
-#include "render/page/json_access.hpp"
 #include "render/page/map_cloud.hpp"
-#include "render/page/page_pictures.hpp"
+#include "render/page/page_data.hpp"
 #include "render/page/run_folder.hpp"
 #include "render/page/run_series.hpp"
 #include "render/page/scan_series.hpp"
 #include "render/page/scene_geometry.hpp"
-#include "render/page/series_styles.hpp"
+#include "render/page/series.hpp"
 #include "render/page/surface_distance.hpp"
 #include "sim/environment/scene_config.hpp"
 

@@ -7,13 +7,13 @@
 #include <string>
 #include <utility>
 
-#include "bench/jobs/results.hpp"
+#include "bench/jobs/stored_results.hpp"
 #include "bench/run/expectations.hpp"
+#include "bench/run/json_text.hpp"
 #include "bench/studies/suite_summary.hpp"
-#include "render/page/json_access.hpp"
 #include "render/page/links.hpp"
 #include "render/page/run_folder.hpp"
-#include "render/page/series_styles.hpp"
+#include "render/page/series.hpp"
 #include "render/page/suite_runs.hpp"
 #include "sim/environment/scene_config.hpp"
 

@@ -6,7 +6,6 @@
 
 #include "core/error.hpp"
 #include "render/page/page_data.hpp"
-#include "render/page/page_options.hpp"
 
 namespace aims {
 

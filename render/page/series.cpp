@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/page/series.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
+
+#include "bench/run/json_text.hpp"
+#include "core/series_style.hpp"
 
 namespace aims {
 
@@ -70,6 +76,66 @@ Json poses_json(const Trajectory& poses, double start, PageData& page) {
     q.insert(q.end(), {rotation.x(), rotation.y(), rotation.z(), rotation.w()});
   }
   return {{"t", stamp_column(t, page)}, {"p", column(p, page, 3)}, {"q", column(q, page, 4)}};
+}
+
+PageData::Json palette_json() {
+  PageData::Json palette = PageData::Json::array();
+  for (std::size_t i = 0; i < kSeriesStyles; ++i) {
+    const SeriesStyle style = series_style(i);
+    const auto dashes = dash_lengths(style.pattern);
+    palette.push_back({{"light", fmt::format("#{:06x}", style.light)},
+                       {"dark", fmt::format("#{:06x}", style.dark)},
+                       {"dash", std::vector<double>(dashes.begin(), dashes.end())}});
+  }
+  return palette;
+}
+
+PageData::Json styles_json(const std::vector<std::string>& labels) {
+  PageData::Json styles = PageData::Json::object();
+  const std::vector<std::size_t> indices = series_styles(labels);
+  for (std::size_t i = 0; i < labels.size(); ++i) styles[labels[i]] = indices[i];
+  return styles;
+}
+
+namespace {
+
+constexpr std::string_view kDetectorsSchema = "aims.detectors/2";
+constexpr std::size_t kMostPooled = 400;
+constexpr std::size_t kMostOfScenario = 60;
+
+float rate_of(const Json& point, std::size_t i) {
+  const bool is_rate = point.is_array() && point.size() == 2 && point[i].is_number();
+  return is_rate ? point[i].get<float>() : std::numeric_limits<float>::quiet_NaN();
+}
+
+/// Both rates of at most `most` points, alternating.
+std::vector<float> thinned(const Json& curve, std::size_t most) {
+  std::vector<float> rates;
+  if (!curve.is_array() || curve.empty()) return rates;
+  const std::size_t count = std::min(most, curve.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t at = count == 1 ? 0 : i * (curve.size() - 1) / (count - 1);
+    rates.push_back(rate_of(curve[at], 0));
+    rates.push_back(rate_of(curve[at], 1));
+  }
+  return rates;
+}
+
+}  // namespace
+
+Result<Json> detector_curves(const std::filesystem::path& file, PageData& page) {
+  auto json = read_json_of(file, kDetectorsSchema);
+  if (!json) return json;
+  if (!member(*json, "scores").is_array()) {
+    return failure(file.string() + ": scores: expected a list");
+  }
+  for (Json& score : (*json)["scores"]) {
+    if (!score.is_object()) return failure(file.string() + ": scores: expected objects");
+    const bool pooled = !member(score, "scenario").is_string();
+    score["curve"] =
+        page.f32(thinned(member(score, "curve"), pooled ? kMostPooled : kMostOfScenario));
+  }
+  return json;
 }
 
 }  // namespace aims

@@ -3,10 +3,12 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "bench/run/score_record.hpp"
 #include "core/error.hpp"
 #include "core/files/csv_columns.hpp"
 #include "core/trajectory.hpp"
@@ -47,5 +49,18 @@ void append(const Eigen::Vector3d& v, Numbers& values);
 
 /// "t" [s] after `start`, "p" and "q" (x y z w) of the poses.
 PageData::Json poses_json(const Trajectory& poses, double start, PageData& page);
+
+/// The styles of core/series_style.hpp: a list of {"light", "dark", "dash"}, colours as "#rrggbb",
+/// dashes as lengths of line and gap in turn [px].
+PageData::Json palette_json();
+
+/// Index of the style of each label.
+PageData::Json styles_json(const std::vector<std::string>& labels);
+
+/// Results of a detector study for a page: detectors.json with each score's curve
+/// as an array of the page (false-alarm rate and detection rate, alternating). Pooled curves
+/// keep at most 400 points, those of one scenario 60, evenly chosen with both ends. Error when the
+/// file is no detectors.json.
+Result<Json> detector_curves(const std::filesystem::path& file, PageData& page);
 
 }  // namespace aims

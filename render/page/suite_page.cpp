@@ -12,16 +12,15 @@
 #include <utility>
 #include <vector>
 
-#include "bench/jobs/results.hpp"
+#include "bench/jobs/stored_results.hpp"
+#include "bench/run/json_text.hpp"
 #include "bench/studies/comparison.hpp"
 #include "bench/studies/paper_study.hpp"
-#include "bench/studies/run_folder.hpp"
 #include "bench/studies/suite_summary.hpp"
-#include "render/page/detector_curves.hpp"
-#include "render/page/json_access.hpp"
+#include "bench/studies/written_runs.hpp"
 #include "render/page/links.hpp"
-#include "render/page/page_pictures.hpp"
-#include "render/page/series_styles.hpp"
+#include "render/page/page_data.hpp"
+#include "render/page/series.hpp"
 #include "render/page/suite_runs.hpp"
 
 namespace aims {

@@ -7,9 +7,9 @@
 #include <cctype>
 #include <vector>
 
+#include "bench/run/json_text.hpp"
 #include "bench/run/score_statistics.hpp"
 #include "bench/run/validity.hpp"
-#include "render/page/json_access.hpp"
 #include "render/page/suite_page.hpp"
 
 namespace aims {
@@ -25,7 +25,7 @@ Json outcome_of(const RunRecord& run, const std::string& estimator) {
   Json outcome = {{"success", member(scores, "success")},
                   {"diverged_at_s", json_of(find_score(run, estimator, "diverged_at_s"))},
                   {"diverged_reason", text_in(scores, "diverged_reason")}};
-  for (const HeadlineScore& score : kHeadlineScores) {
+  for (const Score& score : headline_scores()) {
     outcome[score.key] = json_of(find_score(run, estimator, score.key));
   }
   return outcome;
@@ -69,7 +69,7 @@ Json suite_run_json(const std::string& scenario, std::uint64_t seed, const RunRe
 
 Json headline_scores_json() {
   Json scores = Json::array();
-  for (const HeadlineScore& score : kHeadlineScores) {
+  for (const Score& score : headline_scores()) {
     scores.push_back({{"key", score.key}, {"title", score.title}, {"unit", score.unit}});
   }
   return scores;

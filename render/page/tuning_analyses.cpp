@@ -21,7 +21,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 /// The objectives that are analysed: those of the plan, then the first one of each headline score.
 std::vector<Objective> analysed(const TuningSource& source) {
   std::vector<Objective> objectives = source.objectives;
-  for (const HeadlineScore& score : kHeadlineScores) {
+  for (const Score& score : headline_scores()) {
     const bool known = std::any_of(objectives.begin(), objectives.end(),
                                    [&](const auto& each) { return each.score == score.key; });
     if (known) continue;

@@ -11,14 +11,14 @@
 #include <utility>
 #include <vector>
 
+#include "bench/run/json_text.hpp"
 #include "bench/run/scenario.hpp"
 #include "bench/run/validity.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "bench/tuning/range_key.hpp"
 #include "bench/tuning/sweep_summary.hpp"
-#include "render/page/json_access.hpp"
 #include "render/page/links.hpp"
-#include "render/page/series_styles.hpp"
+#include "render/page/series.hpp"
 #include "render/page/tuning_analyses.hpp"
 
 namespace aims {
@@ -103,13 +103,13 @@ std::vector<std::string> scores_of(const TuningSource& source, const Collected& 
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
   };
   for (const Objective& each : source.objectives) add(each.score);
-  for (const HeadlineScore& each : kHeadlineScores) add(each.key);
+  for (const Score& each : headline_scores()) add(each.key);
   std::size_t rows = 1;
   for (const EstimatorRows& each : all.estimators) {
     rows += each.rows.size();
     for (const Row& row : each.rows) add_keys(row.result.scores, "", keys);
   }
-  const std::size_t least = source.objectives.size() + kHeadlineScores.size();
+  const std::size_t least = source.objectives.size() + kHeadlineCount;
   keys.resize(std::min(keys.size(), std::max(least, kMostNumbers / rows)));
   return keys;
 }

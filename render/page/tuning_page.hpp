@@ -5,7 +5,6 @@
 
 #include "core/error.hpp"
 #include "render/page/page_data.hpp"
-#include "render/page/page_options.hpp"
 #include "render/page/tuning_source.hpp"
 
 namespace aims {

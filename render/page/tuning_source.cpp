@@ -8,12 +8,12 @@
 #include <set>
 #include <utility>
 
+#include "bench/run/json_text.hpp"
 #include "bench/run/seeds.hpp"
 #include "bench/tuning/sweep_plan.hpp"
 #include "bench/tuning/tune_plan.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/csv_columns.hpp"
-#include "render/page/json_access.hpp"
 
 namespace aims {
 namespace {

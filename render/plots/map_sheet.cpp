@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "render/plots/palette.hpp"
-#include "render/plots/roof_cut.hpp"
+#include "render/plots/scene_plan.hpp"
 
 namespace aims {
 namespace {

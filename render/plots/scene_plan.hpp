@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "sim/environment/scene.hpp"
@@ -13,5 +14,9 @@ namespace aims {
 /// are left out. Each is convex, counter-clockwise.
 std::vector<std::vector<Eigen::Vector2d>> scene_plan(const Scene& scene, double min_top = 0.05,
                                                      double max_bottom = 1.2);
+
+/// For each point whether it is at most `section` [m] over the lowest point of its 2 m cell of the
+/// ground: what is left when the roof is cut off, also over a ramp.
+std::vector<bool> under_roof(std::span<const Eigen::Vector3f> points, double section);
 
 }  // namespace aims

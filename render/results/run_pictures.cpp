@@ -7,7 +7,7 @@
 #include <functional>
 #include <utility>
 
-#include "bench/run/results.hpp"
+#include "bench/run/estimator_files.hpp"
 #include "bench/run/scenario.hpp"
 #include "bench/run/sequence.hpp"
 #include "bench/run/start_anchor.hpp"

@@ -10,7 +10,7 @@
 
 namespace aims {
 
-/// Draws a run into its folder (bench/studies/run_folder.hpp): the robot along the route, each
+/// Draws a run into its folder (bench/studies/written_runs.hpp): the robot along the route, each
 /// estimator's map from above and from the side, every trajectory over the plan, and the degeneracy
 /// index over time; on two threads when `threads` is more than one.
 Result<void> draw_run(const std::filesystem::path& folder, const DrawObserver& observer = {},

@@ -8,13 +8,13 @@
 #include "core/error.hpp"
 #include "sim/environment/building_config.hpp"
 #include "sim/environment/garage.hpp"
-#include "sim/environment/glass.hpp"
 #include "sim/environment/junction.hpp"
 #include "sim/environment/loop.hpp"
 #include "sim/environment/people.hpp"
 #include "sim/environment/ramp.hpp"
 #include "sim/environment/scene.hpp"
 #include "sim/environment/tunnel.hpp"
+#include "sim/environment/wall.hpp"
 
 namespace aims {
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 namespace aims {
+
 namespace {
 
 std::string stream_name(std::string_view link, std::string_view fault) {
@@ -143,6 +144,19 @@ void Link::send(Time sent, Measurement measurement, std::vector<Delivery>& out) 
   }
   out.push_back({first, measurement});
   if (twice) out.push_back({first + behind, std::move(measurement)});
+}
+
+void Arrivals::add(Delivery delivery) {
+  static_assert(std::is_same_v<std::variant_alternative_t<0, Measurement>, ImuSample>);
+  const Order order{delivery.arrival, delivery.measurement.index(), sent_++};
+  pending_.emplace(order, std::move(delivery));
+}
+
+void Arrivals::take(Time now, std::vector<Delivery>& out) {
+  while (!pending_.empty() && pending_.begin()->second.arrival <= now) {
+    out.push_back(std::move(pending_.begin()->second));
+    pending_.erase(pending_.begin());
+  }
 }
 
 }  // namespace aims

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "core/config.hpp"
@@ -64,6 +66,21 @@ class Link {
   bool in_burst_ = false;
   double clock_offset_ = 0.0;  ///< drawn and configured [s]
   double clock_drift_ = 0.0;   ///< [s/s]
+};
+
+/// Pending deliveries in order of arrival; equal arrivals go by kind of sensor (IMU, leg
+/// odometry, LiDAR), then by the order in which they were sent.
+class Arrivals {
+ public:
+  void add(Delivery delivery);
+
+  /// Moves the deliveries that have arrived by `now` to the end of `out`.
+  void take(Time now, std::vector<Delivery>& out);
+
+ private:
+  using Order = std::tuple<Time, std::size_t, std::uint64_t>;
+  std::map<Order, Delivery> pending_;
+  std::uint64_t sent_ = 0;
 };
 
 }  // namespace aims

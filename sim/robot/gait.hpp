@@ -6,7 +6,6 @@
 
 #include "core/config.hpp"
 #include "sim/robot/stance_forces.hpp"
-#include "sim/robot/stance_hold.hpp"
 #include "sim/robot/trunk_motion.hpp"
 #include "sim/robot/world.hpp"
 

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "core/error.hpp"
+#include "sim/environment/scene.hpp"
 #include "sim/environment/scene_config.hpp"
 #include "sim/robot/route.hpp"
 
@@ -16,5 +18,16 @@ std::vector<RoutePoint> points_along(const SceneConfig& scene);
 
 /// The route with its points along the scene when it is to follow it; else as it is.
 RouteConfig route_in(const SceneConfig& scene, const RouteConfig& route);
+
+/// The room that a walking robot takes.
+struct BodySize {
+  double height = 0.29;      ///< of the trunk above the floor [m]
+  double half_width = 0.16;  ///< with its feet, as far as a wall must be [m]
+};
+
+/// Error when the robot cannot walk the route in that scene: a point is outside the building or
+/// inside a solid, or a solid that collides is in the way between two points. People are no
+/// obstacles.
+Result<void> check_walkable(const RouteConfig& route, const Scene& scene, const BodySize& body);
 
 }  // namespace aims

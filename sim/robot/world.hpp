@@ -12,7 +12,7 @@
 #include "core/leg_kinematics.hpp"
 #include "core/lie.hpp"
 #include "core/measurements.hpp"
-#include "sim/robot/leg_lengths.hpp"
+#include "sim/robot/robot_geometry.hpp"
 
 namespace aims {
 

@@ -9,7 +9,7 @@
 #include "core/measurements.hpp"
 #include "core/random.hpp"
 #include "sim/run_seeds.hpp"
-#include "sim/sensors/second_order.hpp"
+#include "sim/sensors/low_pass.hpp"
 
 namespace aims {
 

@@ -3,7 +3,7 @@
 #include <fstream>
 
 #include "bench/jobs/job_store.hpp"
-#include "bench/jobs/results.hpp"
+#include "bench/jobs/stored_results.hpp"
 #include "bench/run/json_text.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "render/page/page_template.hpp"

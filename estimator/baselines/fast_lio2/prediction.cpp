@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/baselines/fast_lio2/prediction.hpp"
 
-#include "estimator/baselines/fast_lio2/sphere.hpp"
+#include "estimator/baselines/fast_lio2/state.hpp"
 
 namespace aims::fast_lio2 {
 

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 
 namespace aims::leg_kilo {
+
 namespace {
 
 /// Further from the start the state is of no use [m].

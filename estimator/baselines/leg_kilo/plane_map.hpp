@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "estimator/baselines/leg_kilo/observations.hpp"
-#include "estimator/baselines/leg_kilo/plane_tree.hpp"
+#include "estimator/baselines/leg_kilo/voxel_plane.hpp"
 #include "estimator/lidar/voxel_store.hpp"
 
 namespace aims::leg_kilo {

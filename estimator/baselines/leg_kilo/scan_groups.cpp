@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "estimator/baselines/points/point_choice.hpp"
-#include "estimator/baselines/points/voxel_centroids.hpp"
 
 namespace aims::leg_kilo {
 

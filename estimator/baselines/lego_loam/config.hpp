@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/config.hpp"
+#include "estimator/baselines/features/feature_map.hpp"
+#include "estimator/baselines/features/feature_matches.hpp"
 #include "estimator/baselines/features/feature_solver.hpp"
-#include "estimator/baselines/features/map_reference.hpp"
-#include "estimator/baselines/features/ring_reference.hpp"
 #include "estimator/baselines/lego_loam/segmented_features.hpp"
 #include "estimator/baselines/pose_graph/loop_closure.hpp"
 #include "estimator/baselines/pose_graph/pose_graph.hpp"

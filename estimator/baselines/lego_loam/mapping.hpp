@@ -6,7 +6,7 @@
 
 #include "core/time.hpp"
 #include "estimator/baselines/lego_loam/config.hpp"
-#include "estimator/baselines/pose_graph/keyframe_graph.hpp"
+#include "estimator/baselines/pose_graph/loop_closure.hpp"
 
 namespace aims::lego_loam {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "estimator/baselines/lego_loam/azimuth_times.hpp"
+#include "estimator/baselines/lego_loam/range_image.hpp"
 #include "estimator/lidar/voxel_hash.hpp"
 
 namespace aims::lego_loam {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "estimator/baselines/features/feature_selection.hpp"
-#include "estimator/baselines/features/range_ring.hpp"
+#include "estimator/baselines/features/ring_features.hpp"
 #include "estimator/baselines/lego_loam/range_image.hpp"
 
 namespace aims::lego_loam {

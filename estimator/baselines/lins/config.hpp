@@ -4,11 +4,10 @@
 #include <Eigen/Core>
 
 #include "core/config.hpp"
+#include "estimator/baselines/features/feature_matches.hpp"
 #include "estimator/baselines/features/feature_solver.hpp"
-#include "estimator/baselines/features/ring_reference.hpp"
 #include "estimator/baselines/lego_loam/config.hpp"
-#include "estimator/baselines/lins/iterated_update.hpp"
-#include "estimator/baselines/lins/prediction.hpp"
+#include "estimator/baselines/lins/filter.hpp"
 #include "estimator/estimator_config.hpp"
 #include "estimator/filter/measurement_queue.hpp"
 

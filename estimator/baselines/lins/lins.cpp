@@ -2,10 +2,83 @@
 #include "estimator/baselines/lins/lins.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 
-#include "estimator/baselines/lins/scan_series.hpp"
+#include "estimator/baselines/features/scan_estimator.hpp"
+#include "estimator/baselines/points/translation_constraint.hpp"
 
 namespace aims::lins {
+
+namespace {
+
+using Series = ReportedSeries<ScanReport>;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+int iterations(const ScanReport& scan) {
+  const int mapping = scan.mapping ? scan.mapping->iterations : 0;
+  return scan.odometry.update.iterations + mapping;
+}
+
+points::TranslationConstraint constraint_of(const Update& update) {
+  const std::vector<Eigen::Vector3d>& gradients = update.last.gradients;
+  Eigen::Matrix<double, Eigen::Dynamic, 3> rows(static_cast<Eigen::Index>(gradients.size()), 3);
+  for (std::size_t i = 0; i < gradients.size(); ++i) {
+    rows.row(static_cast<Eigen::Index>(i)) = gradients[i].transpose();
+  }
+  return points::translation_constraint(rows);
+}
+
+double residual_rms(const Update& update) {
+  const std::size_t count = update.last.gradients.size();
+  return count > 0 ? std::sqrt(update.last.squared_norm / static_cast<double>(count)) : kNone;
+}
+
+constexpr std::array kOwnSeries = {
+    Series{"points_in", "-", "finite points in range",
+           [](const ScanReport& s) { return double(s.points_in); }},
+    Series{"ground_points", "-", "returns of the ground",
+           [](const ScanReport& s) { return double(s.ground); }},
+    Series{"segmented_points", "-", "returns of kept segments",
+           [](const ScanReport& s) { return double(s.segmented); }},
+    Series{"iterations", "-", "of filter and mapping; 0: no update",
+           [](const ScanReport& s) { return double(iterations(s)); }},
+    Series{"filter_iterations", "-", "of the filter",
+           [](const ScanReport& s) { return double(s.odometry.update.iterations); }},
+    Series{"converged", "-", "1: the filter's last step was small",
+           [](const ScanReport& s) { return s.odometry.update.converged ? 1.0 : 0.0; }},
+    Series{"diverged", "-", "1: the filter diverged, the scans alone gave the motion",
+           [](const ScanReport& s) { return s.odometry.update.diverged ? 1.0 : 0.0; }},
+    Series{"plane_matches", "-", "planes of the last scan in the last iteration",
+           [](const ScanReport& s) { return double(s.odometry.update.last.planes); }},
+    Series{"edge_matches", "-", "lines of the last scan in the last iteration",
+           [](const ScanReport& s) { return double(s.odometry.update.last.lines); }},
+    Series{"residual_rms", "m", "weighted distances in the last iteration",
+           [](const ScanReport& s) { return residual_rms(s.odometry.update); }},
+    Series{"points_used", "-", "distances that weigh enough in the last iteration",
+           [](const ScanReport& s) { return double(s.odometry.update.last.gradients.size()); }},
+    Series{"smallest_eigenvalue", "-",
+           "smallest eigenvalue of the sum of squared gradients in the last iteration: translation",
+           [](const ScanReport& s) { return constraint_of(s.odometry.update).smallest; }},
+    Series{"condition_number", "-", "condition number of that sum",
+           [](const ScanReport& s) { return constraint_of(s.odometry.update).condition; }},
+    Series{"localizability", "-", "sum of the cosines between gradients and the weakest direction",
+           [](const ScanReport& s) { return constraint_of(s.odometry.update).localizability; }},
+};
+
+constexpr std::array kSeries =
+    joined(kOwnSeries, features::mapping_series<ScanReport>(), features::loop_series<ScanReport>());
+
+}  // namespace
+
+std::vector<SeriesInfo> scan_series() { return series_of(kSeries); }
+
+ScanRow row_of(const ScanReport& scan, Time stamp) {
+  return {stamp, std::nullopt, values_of(kSeries, scan)};
+}
+
 namespace {
 
 /// A gap between scans that is longer is bridged by the sample after it.

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "estimator/baselines/pose_graph/pose_factors.hpp"
+#include "estimator/baselines/pose_graph/pose_graph.hpp"
 
 namespace aims::lio_sam {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "core/measurements.hpp"
 #include "core/trajectory.hpp"
-#include "estimator/baselines/lio_sam/factors.hpp"
+#include "estimator/baselines/lio_sam/preintegration.hpp"
 
 namespace aims::lio_sam {
 

@@ -1,20 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <optional>
 #include <vector>
 
 #include "core/config.hpp"
 #include "core/time.hpp"
+#include "estimator/baselines/features/feature_map.hpp"
 #include "estimator/baselines/features/feature_solver.hpp"
-#include "estimator/baselines/features/keyframe_map.hpp"
-#include "estimator/baselines/features/map_reference.hpp"
-#include "estimator/baselines/lio_sam/attitude.hpp"
 #include "estimator/baselines/lio_sam/imu_odometry.hpp"
 #include "estimator/baselines/lio_sam/scan_features.hpp"
-#include "estimator/baselines/pose_graph/keyframe_graph.hpp"
+#include "estimator/baselines/pose_graph/loop_closure.hpp"
 
 namespace aims::lio_sam {
+
+/// Angles of R = R_z(yaw) R_y(pitch) R_x(roll) [rad].
+struct RollPitchYaw {
+  double roll = 0.0;
+  double pitch = 0.0;
+  double yaw = 0.0;
+};
+
+RollPitchYaw angles_of(const Eigen::Quaterniond& rotation);
+
+Eigen::Quaterniond rotation_of(const RollPitchYaw& angles);
+
+/// The rotation with roll and pitch moved towards those of an attitude by `weight`, each on its
+/// own; unchanged when the attitude points steeply up or down.
+Eigen::Quaterniond levelled(const Eigen::Quaterniond& rotation, const RollPitchYaw& attitude,
+                            double weight);
 
 /// LOAM's scan to map with 30 iterations at most.
 features::SolverConfig solver_config();

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "core/config.hpp"
+#include "estimator/baselines/features/feature_map.hpp"
+#include "estimator/baselines/features/feature_matches.hpp"
 #include "estimator/baselines/features/feature_solver.hpp"
-#include "estimator/baselines/features/map_reference.hpp"
 #include "estimator/baselines/features/ring_features.hpp"
-#include "estimator/baselines/features/ring_reference.hpp"
 #include "estimator/estimator_config.hpp"
 #include "estimator/filter/measurement_queue.hpp"
 

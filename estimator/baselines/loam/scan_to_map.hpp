@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "estimator/baselines/features/cube_map.hpp"
+#include "estimator/baselines/features/feature_map.hpp"
 #include "estimator/baselines/loam/config.hpp"
 
 namespace aims::loam {

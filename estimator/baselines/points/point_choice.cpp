@@ -2,6 +2,7 @@
 #include "estimator/baselines/points/point_choice.hpp"
 
 namespace aims::points {
+
 namespace {
 
 /// Returns beyond this are no ranges of a LiDAR; indices of voxels stay small [m].

@@ -7,6 +7,7 @@
 #include <utility>
 
 namespace aims::pose_graph {
+
 namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;

@@ -11,9 +11,14 @@
 #include <vector>
 
 #include "core/lie.hpp"
-#include "estimator/baselines/pose_graph/imu_bias.hpp"
 
 namespace aims::pose_graph {
+
+/// Biases of the IMU.
+struct ImuBias {
+  Eigen::Vector3d accelerometer = Eigen::Vector3d::Zero();  ///< [m/s^2]
+  Eigen::Vector3d gyro = Eigen::Vector3d::Zero();           ///< [rad/s]
+};
 
 /// What a variable of a graph stands for: a pose, a velocity or the biases.
 using Value = std::variant<Pose, Eigen::Vector3d, ImuBias>;

@@ -1,16 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/config.hpp"
+#include "core/lie.hpp"
 #include "core/time.hpp"
-#include "estimator/baselines/features/keyframe_map.hpp"
+#include "estimator/baselines/features/feature_map.hpp"
+#include "estimator/baselines/features/feature_matches.hpp"
 #include "estimator/baselines/pose_graph/pose_graph.hpp"
 
 namespace aims::pose_graph {
+
+/// What the alignment of two clouds found.
+struct IcpResult {
+  Pose T_target_source;
+  double fitness = 0.0;  ///< mean squared distance of the source's points from the target [m^2]
+  int iterations = 0;    ///< 0: too few points in reach
+};
+
+/// Aligns a cloud with another by iterated closest points (Besl and McKay 1992), with the rules of
+/// the Point Cloud Library for an end: a step below 1 mm and 1.4 mrad, or a mean squared distance
+/// that changes by less than 1e-6 m^2 or a part of 1e-5. Points farther than `max_distance` [m] are
+/// left out. Both clouds have the same axes.
+IcpResult align(const std::vector<Eigen::Vector3f>& source, const features::PointIndex& target,
+                double max_distance);
 
 /// Loops by distance (LIO-SAM, section III-E); defaults of its published program.
 struct LoopConfig {
@@ -54,6 +71,33 @@ class LoopClosure {
   int last_closed_ = -1;  ///< keyframe that has a loop
   int closed_ = 0;
   std::vector<Loop> found_;
+};
+
+/// The keyframes of a map, whose poses follow a graph with loops between them.
+class KeyframeGraph {
+ public:
+  KeyframeGraph(const PoseGraphConfig& graph, const LoopConfig& loop)
+      : graph_(graph), loops_(loop) {}
+
+  /// Adds a keyframe, and the loops found since the last one. True: they may have moved all
+  /// keyframes, the new one among them.
+  bool add(features::Keyframe keyframe);
+
+  /// Adds a keyframe outside the graph, whose pose stays as it is; for maps without loops.
+  void add_fixed(features::Keyframe keyframe) { map_.add(std::move(keyframe)); }
+
+  /// Looks for a loop of the newest keyframe with old ones near a position, when it is time to.
+  void search(Time stamp, const Eigen::Vector3d& position) { loops_.search(stamp, position, map_); }
+
+  const features::KeyframeMap& map() const { return map_; }
+
+  /// Loops closed so far.
+  int loops() const { return loops_.closed(); }
+
+ private:
+  features::KeyframeMap map_;
+  PoseGraph graph_;
+  LoopClosure loops_;
 };
 
 }  // namespace aims::pose_graph

@@ -9,6 +9,13 @@
 
 namespace aims::pose_graph {
 
+/// The pose is `mean`: r = (Log(R_m^T R), R_m^T (p - p_m)), rotation [rad] before position [m].
+Factor pose_prior(int pose, const Pose& mean, const Eigen::MatrixXd& sqrt_information);
+
+/// The second pose relative to the first is `T_from_to`: the residual of a prior on that pose.
+Factor relative_pose(int from, int to, const Pose& T_from_to,
+                     const Eigen::MatrixXd& sqrt_information);
+
 /// Graph of keyframes (LIO-SAM, section III); defaults of its published program.
 struct PoseGraphConfig {
   double rotation_variance = 1e-6;     ///< between two keyframes [rad^2]

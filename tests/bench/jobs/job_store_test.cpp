@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "bench/jobs/results.hpp"
+#include "bench/jobs/stored_results.hpp"
 #include "tests/bench/short_walk.hpp"
 #include "tests/support/temporary_folder.hpp"
 

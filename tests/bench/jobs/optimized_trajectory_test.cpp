@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "bench/jobs/job_runner.hpp"
-#include "bench/jobs/results.hpp"
-#include "bench/run/results.hpp"
+#include "bench/jobs/stored_results.hpp"
+#include "bench/run/estimator_files.hpp"
 #include "bench/run/score_table.hpp"
 #include "core/files/tum.hpp"
 #include "tests/bench/short_walk.hpp"

@@ -11,8 +11,8 @@
 #include <numbers>
 #include <string>
 
+#include "bench/run/model_sheets.hpp"
 #include "bench/run/record.hpp"
-#include "bench/run/robot_sheet.hpp"
 #include "bench/run/scenario.hpp"
 #include "core/leg_kinematics.hpp"
 #include "core/random.hpp"

@@ -11,7 +11,7 @@
 
 #include "bench/run/scenario.hpp"
 #include "core/files/atomic_file.hpp"
-#include "sim/robot/route_check.hpp"
+#include "sim/robot/scene_route.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {
@@ -252,8 +252,8 @@ TEST(ScenarioDraws, BadEntriesAreErrorsWithFileAndLine) {
 }
 
 TEST(ScenarioDraws, ARobotKeepsItsDrawsAndTheSceneIsOfTheRun) {
-  Scenario scenario =
-      drawing({range("leg_odometry.joint_stiffness", 80.0, 2000.0), range("route.speed", 0.3, 1.0)});
+  Scenario scenario = drawing(
+      {range("leg_odometry.joint_stiffness", 80.0, 2000.0), range("route.speed", 0.3, 1.0)});
   const Scenario own = scenario_of_seed(scenario, 5);
   scenario.simulation.robot_seed = 5;
   EXPECT_EQ(scenario_of_seed(scenario, 5).drawn, own.drawn);

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bench/run/results.hpp"
+#include "bench/run/estimator_files.hpp"
 #include "core/files/atomic_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "bench/studies/consistency_study.hpp"
 #include "core/files/atomic_file.hpp"
-#include "render/results/consistency_pictures.hpp"
+#include "render/results/study_pictures.hpp"
 #include "tests/bench/studies/short_walk.hpp"
 #include "tests/support/estimator_settings.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -10,7 +10,7 @@
 #include "bench/studies/detector_summary.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/random.hpp"
-#include "render/results/detector_pictures.hpp"
+#include "render/results/study_pictures.hpp"
 #include "tests/bench/studies/short_walk.hpp"
 #include "tests/support/temporary_folder.hpp"
 

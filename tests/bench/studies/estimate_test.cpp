@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "bench/jobs/results.hpp"
+#include "bench/jobs/stored_results.hpp"
 #include "bench/run/estimate_summary.hpp"
 #include "bench/run/record.hpp"
 #include "bench/run/trajectory_summary.hpp"

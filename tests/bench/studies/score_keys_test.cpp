@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "bench/tuning/objective.hpp"
 #include "tests/bench/studies/short_walk.hpp"
 
 namespace aims {
@@ -56,6 +57,17 @@ TEST(ScoreKeys, FollowTheSegmentsOfTheScenario) {
   EXPECT_TRUE(check_score("it", "m_list_percent.b-a", scenario));
   scenario.scoring.segments = {"a-b"};
   EXPECT_FALSE(check_score("it", "m_list_percent.b-a", scenario));
+}
+
+/// The page and the axes of sweeps take the unit from the key.
+TEST(ScoreList, HasTheUnitsThatItsKeysName) {
+  for (const Score& score : score_list()) {
+    EXPECT_EQ(&score_at(score.key), &score) << "a key above it comes first";
+    const std::string named = unit_of_score(score.key);
+    if (!named.empty()) {
+      EXPECT_EQ(named, score.unit) << score.key;
+    }
+  }
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <functional>
 #include <limits>
 
-#include "bench/jobs/results.hpp"
+#include "bench/jobs/stored_results.hpp"
 #include "bench/run/trajectory_summary.hpp"
 #include "render/results/trajectory_pictures.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -7,7 +7,6 @@
 #include "render/film/film_files.hpp"
 #include "render/film/film_movie.hpp"
 #include "render/film/map_growth.hpp"
-#include "render/film/moving_returns.hpp"
 
 namespace aims {
 namespace {

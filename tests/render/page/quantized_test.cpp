@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/page/quantized.hpp"
+#include "render/page/page_data.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "core/random.hpp"
-#include "render/page/page_data.hpp"
 #include "tests/render/page/decoded_page.hpp"
 
 namespace aims {

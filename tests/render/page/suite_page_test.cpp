@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "bench/jobs/job.hpp"
-#include "bench/jobs/results.hpp"
+#include "bench/jobs/stored_results.hpp"
+#include "bench/run/json_text.hpp"
 #include "bench/studies/comparison.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "core/files/csv.hpp"
-#include "render/page/json_access.hpp"
 #include "tests/render/page/decoded_page.hpp"
 #include "tests/render/page/written_run.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -64,7 +64,8 @@ fs::path write_record(const fs::path& folder, const std::string& name, const Jso
   const std::uint64_t seed = scores["seed"];
   fs::create_directories(folder / "jobs");
   const fs::path list = folder / "jobs.csv";
-  if (!fs::exists(list)) put(list, CsvTable({"id", "scenario", "seed", "label", "estimator"}).text());
+  if (!fs::exists(list))
+    put(list, CsvTable({"id", "scenario", "seed", "label", "estimator"}).text());
   CsvTable table({fmt::format("{:016x}", seed), name, fmt::format("{}", seed), "aims", "aims"});
   put(list, testing::content(list) + table.text());
   const Json job = {{"schema", kJobSchema},

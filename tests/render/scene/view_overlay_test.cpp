@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/plots/roof_cut.hpp"
+#include "render/plots/scene_plan.hpp"
 #include "render/scene/scene_edges.hpp"
 #include "render/scene/scene_view.hpp"
 

@@ -8,7 +8,6 @@
 
 #include "core/angle.hpp"
 #include "sim/environment/corridor_pieces.hpp"
-#include "sim/robot/route_check.hpp"
 #include "sim/robot/scene_route.hpp"
 #include "tests/sim/environment/scene_checks.hpp"
 

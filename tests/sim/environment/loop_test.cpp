@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "sim/robot/route_check.hpp"
 #include "sim/robot/scene_route.hpp"
 #include "tests/sim/environment/scene_checks.hpp"
 

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "sim/environment/glass.hpp"
 #include "sim/environment/ramp.hpp"
+#include "sim/environment/wall.hpp"
 #include "tests/sim/environment/scene_checks.hpp"
 
 namespace aims {
@@ -135,7 +135,8 @@ TEST(GlassScene, PanesCoverTheConfiguredFractionAndLeaveOutDoors) {
   for (const double fraction : {0.25, 0.5, 1.0}) {
     const Span along{-3.0, 28.0};
     double covered = 0.0;
-    for (const Span& pane : glass_panes({.fraction = fraction}, along, {})) covered += pane.length();
+    for (const Span& pane : glass_panes({.fraction = fraction}, along, {}))
+      covered += pane.length();
     EXPECT_NEAR(covered, fraction * 31.0, 1e-9);
     const std::vector<Span> doors = {{1.0, 1.9}, {9.2, 10.1}, {17.0, 17.9}};
     double end = along.begin;

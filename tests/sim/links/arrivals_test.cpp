@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/links/arrivals.hpp"
+#include "sim/links/link.hpp"
 
 #include <gtest/gtest.h>
 

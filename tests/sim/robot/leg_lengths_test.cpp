@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/robot/leg_lengths.hpp"
+#include "sim/robot/robot_geometry.hpp"
 
 #include <gtest/gtest.h>
 

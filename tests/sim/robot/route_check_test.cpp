@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "sim/robot/route_check.hpp"
+#include "sim/robot/scene_route.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "sim/robot/robot_geometry.hpp"
-#include "sim/robot/stance_hold.hpp"
+#include "sim/robot/stance_forces.hpp"
 #include "tests/sim/robot/walking.hpp"
 
 namespace aims {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/baselines/fast_lio2/iterated_update.hpp"
+#include "estimator/baselines/fast_lio2/registration.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/baselines/fast_lio2/local_map.hpp"
+#include "estimator/baselines/fast_lio2/point_map.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/baselines/fast_lio2/sphere.hpp"
+#include "estimator/baselines/fast_lio2/state.hpp"
 
 #include <gtest/gtest.h>
 

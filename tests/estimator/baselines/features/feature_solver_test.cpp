@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/random.hpp"
-#include "estimator/baselines/features/huber_problem.hpp"
 #include "tests/estimator/baselines/room_scan.hpp"
 
 namespace aims::features {

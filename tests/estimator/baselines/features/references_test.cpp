@@ -6,9 +6,8 @@
 #include <cmath>
 
 #include "core/random.hpp"
-#include "estimator/baselines/features/cube_map.hpp"
-#include "estimator/baselines/features/map_reference.hpp"
-#include "estimator/baselines/features/ring_reference.hpp"
+#include "estimator/baselines/features/feature_map.hpp"
+#include "estimator/baselines/features/feature_matches.hpp"
 
 namespace aims::features {
 namespace {

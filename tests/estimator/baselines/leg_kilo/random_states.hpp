@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "estimator/baselines/leg_kilo/state.hpp"
+#include "estimator/baselines/leg_kilo/filter.hpp"
 
 namespace aims::leg_kilo::test {
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/baselines/leg_kilo/standing_feet.hpp"
+#include "estimator/baselines/leg_kilo/observations.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 
 #include "core/leg_kinematics.hpp"
-#include "estimator/baselines/leg_kilo/observations.hpp"
 
 namespace aims::leg_kilo {
 namespace {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "estimator/baselines/lego_loam/azimuth_times.hpp"
 #include "estimator/baselines/lego_loam/segmented_features.hpp"
 #include "tests/estimator/baselines/room_scan.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/baselines/lins/iterated_update.hpp"
+#include "estimator/baselines/lins/filter.hpp"
 
 #include <gtest/gtest.h>
 

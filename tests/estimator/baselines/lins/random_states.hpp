@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "estimator/baselines/lins/prediction.hpp"
+#include "estimator/baselines/lins/filter.hpp"
 
 namespace aims::lins::test {
 

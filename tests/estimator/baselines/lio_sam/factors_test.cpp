@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/baselines/lio_sam/factors.hpp"
+#include "estimator/baselines/lio_sam/preintegration.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
 #include "core/random.hpp"
-#include "estimator/baselines/pose_graph/pose_factors.hpp"
+#include "estimator/baselines/pose_graph/pose_graph.hpp"
 
 namespace aims::lio_sam {
 namespace {

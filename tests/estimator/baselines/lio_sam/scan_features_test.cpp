@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "estimator/baselines/lio_sam/attitude.hpp"
+#include "estimator/baselines/lio_sam/mapping.hpp"
 #include "tests/estimator/baselines/room_scan.hpp"
 
 namespace aims::lio_sam {

@@ -6,7 +6,6 @@
 
 #include "estimator/baselines/points/point_choice.hpp"
 #include "estimator/baselines/points/translation_constraint.hpp"
-#include "estimator/baselines/points/voxel_centroids.hpp"
 
 namespace aims::points {
 namespace {

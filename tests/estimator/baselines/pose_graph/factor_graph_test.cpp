@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "estimator/baselines/pose_graph/pose_factors.hpp"
 #include "estimator/baselines/pose_graph/pose_graph.hpp"
 
 namespace aims::pose_graph {

@@ -8,8 +8,6 @@
 #include <numbers>
 
 #include "core/random.hpp"
-#include "estimator/baselines/pose_graph/icp.hpp"
-#include "estimator/baselines/pose_graph/keyframe_graph.hpp"
 #include "tests/estimator/baselines/room_scan.hpp"
 
 namespace aims::pose_graph {

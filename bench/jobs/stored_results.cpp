@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/jobs/stored_results.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+#include "bench/jobs/job_store.hpp"
+#include "bench/run/json_text.hpp"
+#include "bench/run/validity.hpp"
+#include "core/files/atomic_file.hpp"
+
+namespace aims {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::uint64_t seed_of(const std::string& text) {
+  std::uint64_t seed = 0;
+  std::from_chars(text.data(), text.data() + text.size(), seed);
+  return seed;
+}
+
+/// The finished jobs of a store, by scenario and seed.
+Result<StoredResults> read_store(const JobStore& store) {
+  const auto listed = store.listed();
+  if (!listed) return tl::unexpected(listed.error());
+  std::map<std::pair<std::string, std::uint64_t>, std::vector<LabelledResult>> runs;
+  for (const ListedJob& job : *listed) {
+    auto result = store.find(job.id);
+    if (!result || result->outcome != JobOutcome::kDone) continue;
+    auto& run = runs[{job.scenario, seed_of(job.seed)}];
+    // Points of a sweep share a label.
+    const bool repeated = std::any_of(run.begin(), run.end(), [&](const LabelledResult& each) {
+      return each.label == job.label;
+    });
+    run.push_back({repeated ? job.estimator : job.label, std::move(*result)});
+  }
+  StoredResults results;
+  for (const auto& [key, run] : runs) {
+    results[key.first].push_back(record_of(key.first, key.second, run));
+  }
+  return results;
+}
+
+}  // namespace
+
+RunRecord record_of(const std::string& scenario, std::uint64_t seed,
+                    std::span<const LabelledResult> results) {
+  RunRecord record;
+  record.seed = seed;
+  record.scores = {{"schema", kScoresSchema},
+                   {"version", AIMS_VERSION},
+                   {"scenario", scenario},
+                   {"seed", seed},
+                   {"complete", true}};
+  Json estimators = Json::object();
+  Json times = Json::object();
+  for (const auto& [label, result] : results) {
+    if (result.outcome != JobOutcome::kDone) {
+      record.scores["complete"] = false;
+      continue;
+    }
+    for (const auto& [key, value] : result.sequence.items()) {
+      if (!record.scores.contains(key)) record.scores[key] = value;
+    }
+    estimators[label] = result.scores;
+    times[label] = result.wall_s;
+  }
+  record.scores["wall_s"] = std::move(times);
+  record.scores["estimators"] = std::move(estimators);
+  mark_validity(record.scores);
+  return record;
+}
+
+Result<RunRecord> read_record(const fs::path& file) {
+  const auto text = read_file(file);
+  if (!text) return tl::unexpected(text.error());
+  auto parsed = parse_json(*text, file.string());
+  if (!parsed) return tl::unexpected(parsed.error());
+  Json& json = *parsed;
+  const bool known = json.is_object() && value_in(json, "schema", "") == kScoresSchema &&
+                     json.contains("seed") && json["seed"].is_number_unsigned() &&
+                     json.contains("estimators") && json["estimators"].is_object();
+  if (!known) return failure(fmt::format("{}: holds no {}", file.string(), kScoresSchema));
+  mark_validity(json);  // of results from before it was written
+  return RunRecord{json["seed"].get<std::uint64_t>(), std::move(json)};
+}
+
+Result<StoredResults> read_results(const fs::path& folder) {
+  StoredResults results;
+  if (fs::exists(folder / "jobs.csv")) {
+    auto stored = read_store(JobStore(folder));
+    if (!stored) return stored;
+    results = std::move(*stored);
+  } else if (fs::exists(folder / "scores.json")) {
+    auto record = read_record(folder / "scores.json");
+    if (!record) return tl::unexpected(record.error());
+    results[value_in(record->scores, "scenario", "")].push_back(std::move(*record));
+  }
+  if (!results.empty()) return results;
+  return failure(fmt::format("{}: holds no finished results", folder.string()));
+}
+
+}  // namespace aims

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/studies/written_runs.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <system_error>
+
+#include "bench/jobs/sequence_cache.hpp"
+#include "bench/run/estimator_files.hpp"
+#include "bench/run/json_text.hpp"
+#include "bench/run/score_record.hpp"
+#include "bench/run/sequence.hpp"
+#include "bench/run/summary.hpp"
+#include "bench/run/tables.hpp"
+#include "bench/studies/suite_summary.hpp"
+#include "core/files/atomic_file.hpp"
+#include "core/files/manifest.hpp"
+
+namespace aims {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Makes `to` the same file as `from`, or a copy where the disk knows no links.
+Result<void> link_or_copy(const fs::path& from, const fs::path& to) {
+  std::error_code code;
+  fs::remove(to, code);
+  fs::create_hard_link(from, to, code);
+  if (!code) return {};
+  fs::copy_file(from, to, fs::copy_options::overwrite_existing, code);
+  if (!code) return {};
+  return failure(fmt::format("{}: {}", to.string(), code.message()));
+}
+
+/// Removes what an earlier invocation wrote of estimators, and nothing else.
+void remove_estimators(const fs::path& folder) {
+  std::error_code ignored;
+  for (const std::string& name : listed_files(folder).value_or(FileList())) {
+    const bool is_estimator =
+        std::any_of(std::begin(kEstimatorFiles), std::end(kEstimatorFiles),
+                    [&](const char* ending) { return name.ends_with(ending); });
+    const bool is_here = name.find('/') == std::string::npos;
+    if (is_estimator && is_here && name != "truth.tum") fs::remove(folder / name, ignored);
+  }
+}
+
+/// Links the outputs of the run's jobs under the labels of their estimators; their names.
+Result<FileList> link_outputs(const JobStore& store, const Suite& suite,
+                              const std::string& scenario, std::uint64_t seed,
+                              const fs::path& folder) {
+  remove_estimators(folder);
+  FileList files;
+  for (const Job& job : suite.jobs) {
+    if (job.scenario->name != scenario || job.seed != seed) continue;
+    const auto link = [&](const fs::path& from, const std::string& name) -> Result<void> {
+      std::error_code ignored;
+      if (!fs::exists(from, ignored)) return {};
+      files.insert(name);
+      return link_or_copy(from, folder / name);
+    };
+    for (const char* ending : kEstimatorFiles) {
+      auto linked = link(store.outputs_of(job.id) / (std::string(kEstimateName) + ending),
+                         job.estimator.label + ending);
+      if (!linked) return tl::unexpected(linked.error());
+    }
+    const fs::path shared = store.sequence_of(SequenceCache::id_of(*job.scenario, seed));
+    for (const char* name : kSequenceFiles) {
+      if (auto linked = link(shared / name, name); !linked) return tl::unexpected(linked.error());
+    }
+  }
+  return files;
+}
+
+}  // namespace
+
+Result<void> write_run(const JobStore& store, const Suite& suite, const SuiteCase& each,
+                       const RunRecord& record, const fs::path& folder) {
+  std::error_code code;
+  fs::create_directories(folder, code);
+  if (code) return failure(fmt::format("{}: {}", folder.string(), code.message()));
+  auto files = link_outputs(store, suite, each.scenario.name, record.seed, folder);
+  if (!files) return tl::unexpected(files.error());
+  files->insert({"config.yaml", "scores.csv", "scores.json"});
+  const RunRecord own{record.seed, run_scores(each.scenario, record)};
+  auto written =
+      write_file_atomically(folder / "config.yaml", effective_config(each.scenario, record.seed));
+  if (written) written = write_csv(folder / "scores.csv", scores_csv({&own, 1}));
+  if (written)
+    written = write_file_atomically(folder / "scores.json", json_text(own.scores, 2) + "\n");
+  return written ? write_manifest(folder, *files) : written;
+}
+
+Json run_scores(const Scenario& scenario, const RunRecord& record) {
+  Json scores = record.scores;
+  scores["expectations"] = Json::array();
+  for (const ExpectationCheck& check : check_expectations(scenario, {&record, 1})) {
+    scores["expectations"].push_back(check_json(check));
+  }
+  return scores;
+}
+
+Json run_json(const Suite& suite, const fs::path& out) {
+  const SuiteCase& only = suite.cases.front();
+  Json json = {{"schema", "aims.run/1"}, {"scenario", only.scenario.name},
+               {"out", out.string()},    {"complete", suite.complete},
+               {"runs", Json::array()},  {"failures", failures_json(suite)}};
+  for (const RunRecord& run : only.runs) json["runs"].push_back(run_scores(only.scenario, run));
+  return json;
+}
+
+std::vector<fs::path> run_folders(const Suite& suite, const fs::path& out) {
+  const bool several = suite.jobs.front().seed != suite.jobs.back().seed;
+  std::vector<fs::path> folders;
+  for (const RunRecord& run : suite.cases.front().runs) {
+    folders.push_back(several ? out / fmt::format("seed-{}", run.seed) : out);
+  }
+  return folders;
+}
+
+Result<void> write_runs(const Suite& suite, const fs::path& out) {
+  const JobStore store(out);
+  const SuiteCase& only = suite.cases.front();
+  const std::vector<fs::path> folders = run_folders(suite, out);
+  for (std::size_t i = 0; i < only.runs.size(); ++i) {
+    auto written = write_run(store, suite, only, only.runs[i], folders[i]);
+    if (!written) return written;
+  }
+  return only.runs.size() > 1 ? write_summary(only.scenario, only.runs, out) : Result<void>();
+}
+
+fs::path suite_run_folder(const fs::path& out, const std::string& scenario, std::uint64_t seed) {
+  return out / "runs" / scenario / fmt::format("seed-{}", seed);
+}
+
+Result<void> write_suite_runs(const Suite& suite, const fs::path& out) {
+  const JobStore store(out);
+  for (const SuiteCase& each : suite.cases) {
+    for (const RunRecord& run : each.runs) {
+      auto written =
+          write_run(store, suite, each, run, suite_run_folder(out, each.scenario.name, run.seed));
+      if (!written) return written;
+    }
+  }
+  return {};
+}
+
+}  // namespace aims
