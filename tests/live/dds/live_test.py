@@ -53,9 +53,10 @@ def summary(folder):
         return json.load(file)
 
 
-def estimate(recording, folder):
+def estimate(recording, folder, *options):
     """The bytes of the trajectory of `aims estimate`."""
-    run(AIMS, "estimate", recording, "--out", folder, "--overwrite", "--quiet", "--no-pictures", "--no-page", *TOPICS)
+    run(AIMS, "estimate", recording, "--out", folder, "--overwrite", "--quiet", "--no-pictures", "--no-page", *TOPICS,
+        *options)
     return content(os.path.join(folder, "aims_d.tum"))
 
 
@@ -161,6 +162,26 @@ class LiveEstimate(unittest.TestCase):
         self.assertEqual(live.poses(), self.offline)
         # By time of arrival, its rows are stamped by the shift of clocks, of which the record shows more.
         self.assert_same_file(live, "aims_d.health.csv")
+
+    def test_with_a_calibration_live_poses_are_those_of_the_recording_with_it(self):
+        run(AIMS, "calibrate", "walk.mcap", "--topics", "lidar=/lidar/points", "--out", "robot.yaml", "--overwrite",
+            "--quiet")
+        with open("robot.yaml", encoding="utf-8") as file:
+            text = file.read()
+        with open("robot.yaml", "w", encoding="utf-8") as file:
+            mount = text.index("name: lidar_mount")  # which so short a walk leaves out
+            file.write(text[:mount] + text[mount:].replace("used: false", "used: true", 1)
+                       .replace("values: [0, 0, 0]", "values: [0.004, 0, 0.004]", 1))
+        calibration = ["--calibration", "robot.yaml"]
+        live = Live("walk.mcap", "calibrated", ["--source-time", *PATIENT, *calibration], ["--rate", "2"])
+        self.assertEqual(live.finish(), 0, live.log())
+        expected = estimate("walk.mcap", "calibrated-offline", *calibration)
+        self.assertTrue(live.poses() == expected, live.log())
+        self.assertTrue(live.poses() != self.offline, "it acts")
+        wrong = subprocess.run([AIMS, "live", "--calibration", "walk.mcap"], capture_output=True, text=True,
+                               check=False)
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn("--calibration", wrong.stderr)
 
     def test_by_time_of_arrival_the_record_gives_the_same_bytes(self):
         self.assert_same(Live("walk.bag", "arrival", PATIENT))
