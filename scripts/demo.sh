@@ -6,7 +6,7 @@ mkdir -p build
 cat <<'TEXT'
 Look at M_list, the error of the corridor's length. It is 78.6 m long with plain walls; for 18.6 m the
 LiDAR sees neither end, and no scan constrains the position along the corridor. There `lio` (LiDAR and
-IMU) stands still and its map ends at 60 m, `leg` (legs alone) carries its scale error of 20 %, and
+IMU) loses its way and its map ends at 60 m, `leg` (legs alone) carries its scale error of 20 %, and
 `aims_d` corrects the legs where the scans allow it and stays within 1 %.
 
 TEXT

@@ -18,6 +18,11 @@ std::string changes_text(const Interval& interval) {
   return fmt::format("{} to {}", change_text(*interval.low), change_text(*interval.high));
 }
 
+/// The interval says better, and the test that these sequences are too few or too often alike.
+bool may_be_better(const PairedGain& gain) {
+  return gain.interval.low && *gain.interval.low > 0.0 && gain.p > kSignificant;
+}
+
 }  // namespace
 
 bool is_significant(const PairedGain& gain) {
@@ -96,7 +101,10 @@ Verdict verdict_of(const PairedGain& held_out) {
   if (held_out.sequences < kFewestPairs) {
     return *held_out.gain < 0.0 ? Verdict::kDoNotUse : Verdict::kUndecided;
   }
-  return is_significant(held_out) && *held_out.gain > 0.0 ? Verdict::kUseThem : Verdict::kDoNotUse;
+  if (is_significant(held_out)) {
+    return *held_out.gain > 0.0 ? Verdict::kUseThem : Verdict::kDoNotUse;
+  }
+  return may_be_better(held_out) ? Verdict::kUndecided : Verdict::kDoNotUse;
 }
 
 std::string verdict_text(const PairedGain& held_out) {
@@ -123,6 +131,9 @@ std::string verdict_text(const PairedGain& held_out) {
   if (is_significant(held_out)) {
     const bool better = *held_out.gain > 0.0;
     return fmt::format("{}: {} ({})", better ? "use them" : "do not use them", on, figures);
+  }
+  if (may_be_better(held_out)) {
+    return fmt::format("undecided: {} ({}); more held-out sequences are needed", on, figures);
   }
   return fmt::format("do not use them: no significant difference from the defaults: {} ({})", on,
                      figures);

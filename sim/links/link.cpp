@@ -14,11 +14,14 @@ std::string stream_name(std::string_view link, std::string_view fault) {
 
 /// Adds to each stamp of a measurement what `error` is at its time.
 template <class Error>
-void shift_stamps(Measurement& measurement, const Error& error) {
+void shift_stamps(Measurement& measurement, const Error& error, double drift) {
   if (auto* scan = std::get_if<LidarScanPtr>(&measurement)) {
     auto shifted = std::make_shared<LidarScan>(**scan);
+    // All scans are equally long, whatever their stamps are rounded to: a recording has the stamps
+    // and one period.
+    const Duration duration = shifted->end - shifted->stamp;
     shifted->stamp += error(shifted->stamp);
-    shifted->end += error(shifted->end);
+    shifted->end = shifted->stamp + duration + from_seconds(drift * to_seconds(duration));
     *scan = std::move(shifted);
   } else if (auto* imu = std::get_if<ImuSample>(&measurement)) {
     imu->stamp += error(imu->stamp);
@@ -140,7 +143,8 @@ void Link::send(Time sent, Measurement measurement, std::vector<Delivery>& out) 
   if (dropped) return;
   const double jitter = stamp_.uniform(-config_.stamp_jitter, config_.stamp_jitter);
   if (clock_offset_ != 0.0 || clock_drift_ != 0.0 || jitter != 0.0) {
-    shift_stamps(measurement, [&](Time stamp) { return stamp_error(stamp, jitter); });
+    shift_stamps(
+        measurement, [&](Time stamp) { return stamp_error(stamp, jitter); }, clock_drift_);
   }
   out.push_back({first, measurement});
   if (twice) out.push_back({first + behind, std::move(measurement)});

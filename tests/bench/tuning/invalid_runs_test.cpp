@@ -81,5 +81,20 @@ TEST(FailedRunsOfTuning, OfAllPointsSayNothingAboutParameters) {
   EXPECT_FALSE(all_diverged(table));
 }
 
+TEST(HeldOutVerdict, IsUndecidedWhereTheTestCannotConfirmTheInterval) {
+  PairedGain gain;
+  gain.sequences = 6;
+  gain.gain = 0.48;
+  gain.interval.low = 0.16;
+  gain.interval.high = 0.81;
+  gain.p = 0.25;
+  EXPECT_EQ(verdict_of(gain), Verdict::kUndecided);
+  EXPECT_NE(verdict_text(gain).find("more held-out sequences are needed"), std::string::npos);
+  gain.p = 0.03;
+  EXPECT_EQ(verdict_of(gain), Verdict::kUseThem);
+  gain.interval.low = -0.1;
+  EXPECT_EQ(verdict_of(gain), Verdict::kDoNotUse);
+}
+
 }  // namespace
 }  // namespace aims

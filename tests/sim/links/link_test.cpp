@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
+#include <set>
+#include <variant>
 
 namespace aims {
 namespace {
@@ -204,6 +207,29 @@ TEST(Link, DrawsAnOffsetAndADriftOfTheClockPerRun) {
   }
   EXPECT_NEAR(std::sqrt(offset_square), 0.002, 0.0002);
   EXPECT_NEAR(std::sqrt(drift_square), 1000.0 * 20e-6, 0.1 * 0.02);
+}
+
+// A recording states the stamp of a scan and one period for all: their ends must follow from it.
+TEST(Link, ScansOfADriftingClockAreEquallyLong) {
+  LinkConfig config;
+  config.clock_drift_sigma = 20.0;
+  Link link(config, 3, "any");
+  std::vector<Delivery> out;
+  for (Time stamp = 0; stamp < 60 * kSecond; stamp += kSecond / 10) {
+    auto scan = std::make_shared<LidarScan>();
+    scan->stamp = stamp;
+    scan->end = stamp + kSecond / 10;
+    const Time sent = scan->end;
+    link.send(sent, std::move(scan), out);
+  }
+  std::set<Duration> durations;
+  for (const Delivery& each : out) {
+    const LidarScan& scan = *std::get<LidarScanPtr>(each.measurement);
+    durations.insert(scan.end - scan.stamp);
+  }
+  ASSERT_EQ(durations.size(), 1U);
+  EXPECT_NE(*durations.begin(), kSecond / 10);
+  EXPECT_NEAR(static_cast<double>(*durations.begin()), 1e8, 1e8 * 100e-6);
 }
 
 TEST(Link, LosesExactlyWhatIsSentInAnOutage) {
