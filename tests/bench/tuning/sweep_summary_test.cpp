@@ -25,7 +25,7 @@ MergedJob unit_of(const std::string& scenario, int seed, const Json& settings, d
   unit.file = {{"schema", kJobSchema}, {"scenario", scenario},
                {"family", ""},         {"seed", seed},
                {"estimator", "aims"},  {"settings", settings},
-               {"outcome", "done"},    {"scores", {{"ate_m", ate}, {"success", true}}}};
+               {"outcome", "done"},    {"scores", {{"ate_yaw_m", ate}, {"success", true}}}};
   return unit;
 }
 
@@ -59,7 +59,7 @@ bool says(const std::string& text, const std::string& part) {
 }
 
 TEST(SweepReport, TableHasEveryPointAndTheUntunedRuns) {
-  const auto responses = sweep_responses(sweep_over_eta(true), "ate_m");
+  const auto responses = sweep_responses(sweep_over_eta(true), "ate_yaw_m");
   ASSERT_TRUE(responses) << responses.error().message;
   ASSERT_EQ(responses->size(), 1U);
   const ResponseTable& table = responses->front().table;
@@ -86,7 +86,7 @@ TEST(SweepReport, SaysTheBestAndDrawsTheCurve) {
 TEST(SweepReport, WithoutUntunedRunsComparesPlainScores) {
   const TemporaryFolder folder;
   const std::string text = report_of(sweep_over_eta(false), folder.path());
-  EXPECT_TRUE(says(text, "median of ate_m; a diverged run counts")) << text;
+  EXPECT_TRUE(says(text, "median of ate_yaw_m; a diverged run counts")) << text;
   EXPECT_TRUE(says(text, "the defaults have an objective of -")) << text;
 }
 
@@ -94,7 +94,7 @@ TEST(SweepReport, LeavesOutPointsThatAreNotDoneOnAllWalks) {
   MergedSweep sweep = sweep_over_eta(true);
   sweep.jobs[3].file = Json();
   sweep.jobs.back().file = Json();
-  const auto responses = sweep_responses(sweep, "ate_m");
+  const auto responses = sweep_responses(sweep, "ate_yaw_m");
   ASSERT_TRUE(responses);
   EXPECT_EQ(responses->front().incomplete, 2U);
   EXPECT_EQ(responses->front().table.points.size(), 11U);
@@ -106,7 +106,7 @@ TEST(SweepReport, OneUnitIsBothTheUntunedOneAndAPointOfTheGrid) {
   std::erase_if(sweep.jobs, [&](const MergedJob& unit) {
     return unit.file["settings"].value(kEta, "") == own;
   });
-  const auto responses = sweep_responses(sweep, "ate_m");
+  const auto responses = sweep_responses(sweep, "ate_yaw_m");
   ASSERT_TRUE(responses);
   const ResponseTable& table = responses->front().table;
   ASSERT_EQ(table.points.size(), 13U);
@@ -125,7 +125,7 @@ TEST(SweepReport, KnowsWhatScenariosHaveOfVariedKeysOfTheirOwn) {
       sweep.jobs.back().file["defaults"] = {{"links.leg_odometry.loss", "0.05"}};
     }
   }
-  const auto responses = sweep_responses(sweep, "ate_m");
+  const auto responses = sweep_responses(sweep, "ate_yaw_m");
   ASSERT_TRUE(responses) << responses.error().message;
   const ResponseTable& table = responses->front().table;
   EXPECT_EQ(table.defaults, std::vector<double>{0.05});
@@ -138,7 +138,7 @@ TEST(SweepReport, KnowsWhatScenariosHaveOfVariedKeysOfTheirOwn) {
 TEST(SweepReport, FailedUnitsCountAsLost) {
   MergedSweep sweep = sweep_over_eta(true);
   sweep.jobs[1].file["outcome"] = "crashed";
-  const auto responses = sweep_responses(sweep, "ate_m");
+  const auto responses = sweep_responses(sweep, "ate_yaw_m");
   ASSERT_TRUE(responses);
   EXPECT_TRUE(responses->front().table.runs[0][0].diverged);
   EXPECT_EQ(responses->front().incomplete, 0U);
@@ -151,7 +151,7 @@ TEST(SweepReport, KeepsEstimatorsWithOtherSettingsApart) {
     job.file["settings"]["degeneracy.alpha"] = "0.5";
     sweep.jobs.push_back(job);
   }
-  const auto responses = sweep_responses(sweep, "ate_m");
+  const auto responses = sweep_responses(sweep, "ate_yaw_m");
   ASSERT_TRUE(responses);
   ASSERT_EQ(responses->size(), 2U);
   EXPECT_EQ((*responses)[1].estimator, "aims+degeneracy.alpha=0.5");
@@ -161,7 +161,7 @@ TEST(SweepReport, KeepsEstimatorsWithOtherSettingsApart) {
 TEST(SweepReport, RefusesAPlanThatVariesNothing) {
   MergedSweep sweep = sweep_over_eta(true);
   sweep.plans = {"scenarios: [corridor]\n"};
-  const auto responses = sweep_responses(sweep, "ate_m");
+  const auto responses = sweep_responses(sweep, "ate_yaw_m");
   ASSERT_FALSE(responses);
   EXPECT_TRUE(says(responses.error().message, "varies nothing"));
 }
