@@ -45,7 +45,7 @@ Json unit(const std::string& scenario, int seed, const std::vector<double>& valu
           {"outcome", "done"},
           {"message", ""},
           {"wall_s", 1.0},
-          {"scores", {{"ate_m", ate}, {"success", true}, {"drift_m", {{"end", 2.0 * ate}}}}}};
+          {"scores", {{"ate_yaw_m", ate}, {"success", true}, {"drift_m", {{"end", 2.0 * ate}}}}}};
 }
 
 /// Files and list of units of a folder, by the order in which they are added.
@@ -133,7 +133,7 @@ TEST(TuningPage, EveryUnitIsARowWithItsValuesAndScores) {
   const auto scores = page.f32(own["rows"]["scores"]);
   const auto values = page.f32(own["points"]["values"]);
   const std::size_t width = page.json["scores"].size();
-  const std::size_t ate = column_of(page, "ate_m");
+  const std::size_t ate = column_of(page, "ate_yaw_m");
   const std::size_t end = column_of(page, "drift_m.end");
   ASSERT_EQ(point.size(), 26U);
   ASSERT_EQ(scores.size(), 26U * width);
@@ -170,13 +170,13 @@ TEST(TuningPage, TheAnalysisIsThatOfTheMergedSweep) {
   Units units(folder.path());
   write_grid(units, true);
   const DecodedPage page = page_of(folder.path());
-  const auto responses = sweep_responses(*merge_sweeps(std::array{folder.path()}), "ate_m");
+  const auto responses = sweep_responses(*merge_sweeps(std::array{folder.path()}), "ate_yaw_m");
   ASSERT_TRUE(responses);
   const Objective objective;
   const auto best = best_point(responses->front().table, objective);
   ASSERT_TRUE(best);
   const auto& analysis = page.json["estimators"][0]["analyses"][0];
-  EXPECT_EQ(analysis["score"], "ate_m");
+  EXPECT_EQ(analysis["score"], "ate_yaw_m");
   EXPECT_EQ(analysis["objective"], text_of(objective));
   EXPECT_EQ(analysis["best"]["values"], (std::vector<double>{4.0, 1.0}));
   EXPECT_EQ(analysis["best"]["objective"], best->objective);
@@ -242,7 +242,7 @@ TEST(TuningPage, UnitsThatFailedAreLostRowsWithoutScores) {
   const auto& rows = page.json["estimators"][0]["rows"];
   EXPECT_EQ(page.array<std::uint8_t>(rows["diverged"]), (std::vector<std::uint8_t>{1, 1}));
   const auto scores = page.f32(rows["scores"]);
-  const std::size_t ate = column_of(page, "ate_m");
+  const std::size_t ate = column_of(page, "ate_yaw_m");
   EXPECT_TRUE(std::isnan(scores[ate]));
   EXPECT_NEAR(scores[page.json["scores"].size() + ate], 0.3, 1e-6);
 }
@@ -301,7 +301,7 @@ TEST(TuningPage, ATuningLeadsWithWhatHeldOutSequencesSay) {
   Units units(folder.path());
   put(folder.path() / "tune.yaml",
       "params: [\"degeneracy.eta=0:6\", \"degeneracy.kappa=log(1,100)\"]\n"
-      "scenarios: [walk]\nseeds: 1\nheld_out: {seeds: 11-18}\nobjectives:\n  - {score: ate_m}\n");
+      "scenarios: [walk]\nseeds: 1\nheld_out: {seeds: 11-18}\nobjectives:\n  - {score: ate_yaw_m}\n");
   units.add(unit("walk", 1, {}, 0.3));
   units.add(unit("walk", 1, {1.0, 10.0}, 0.2));
   for (int seed = 11; seed <= 18; ++seed) {
