@@ -84,7 +84,6 @@ void LiveSource::go_live(Observer observer, ClockWatch* clocks) {
   if (!observer_) return;
   const Time now = std::exchange(last_, summary_.start);
   for (const LiveMessage& message : *gathered_) {
-    if (!selects(message.connection->topic)) continue;  // from here on they are not heard either
     observer_(as_recorded(message, *find(*message.connection)));
   }
   last_ = now;

@@ -22,6 +22,7 @@ NAMES = {  # what README calls the scenarios
     "severity_5": "level 5: recesses of 5 cm",
     "severity_8": "level 8: plain walls, end walls",
     "severity_9": "level 9: plain walls, open ends",
+    "severity_9_relief": "level 9, walls with relief",
     "garage": "the paper's garage",
 }
 
