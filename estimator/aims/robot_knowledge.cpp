@@ -127,7 +127,7 @@ Belief RobotKnowledge::after_scan(const Belief& before, Belief after, double dt)
     if (each.offset == E::kLegScale.offset) {
       covariance.diagonal().head<3>().array() += kScaleOfPlaces * kScaleOfPlaces;
     }
-    const double limit = kNoChance[static_cast<std::size_t>(each.sigma.size() - 1)];
+    const double limit = kChiSquare9999[static_cast<std::size_t>(each.sigma.size() - 1)];
     if (disagreement(each.data, each.known->mean, covariance) > limit) {
       after = opened(after, each);
     }

@@ -63,21 +63,23 @@ void CrossValidatedInformation::add(const HalvesInformation& scan, const Eigen::
   const double added = (1.0 - kept) * (1.0 - std::exp(-distance_ / kStartDistance));
   weight_ = kept * weight_ + added;
   const double gain = first ? 1.0 : added / weight_;
-  average(scan, gain);
-  const double tilt = tilt_of_noise(scan, gain);
+  const Eigen::Matrix3d across = position_information(scan.across);
+  const double weights = scan.within.bottomRightCorner<3, 3>().trace();
+  within_ += gain * (position_information(scan.within) - within_);
+  across_ += gain * (across - across_);
+  sum_of_weights_ += gain * (weights - sum_of_weights_);
+  const double square = weakest_axis_.dot(across * weakest_axis_) / (weights + kRegularization);
+  const double tilt = tilt_of_noise(square, gain);
   update_fraction(shared_tilt.value_or(tilt));
 }
 
-/// The tilt that the noise of the average may pretend towards the weakest axis, kFreeTilt at first
-/// [rad]. An average over the distance L of a scatter that is correlated over l has its deviation
-/// times (l / (l + L))^(1/2).
-double CrossValidatedInformation::tilt_of_noise(const HalvesInformation& scan, double gain) {
+/// Adds the `square` of the tilt of a scan's planes towards the weakest axis [rad^2]; the tilt that
+/// the noise of the average may pretend, kFreeTilt at first [rad]. An average over the distance L
+/// of a scatter that is correlated over l has its deviation times (l / (l + L))^(1/2).
+double CrossValidatedInformation::tilt_of_noise(double square, double gain) {
   static const double kOfAverage =
       std::sqrt(kNoiseDistance / (kNoiseDistance + kAveragingDistance));
   constexpr double kLimit = kFreeTilt * kFreeTilt;
-  const double weights = scan.within.bottomRightCorner<3, 3>().trace() + kRegularization;
-  const double square =
-      weakest_axis_.dot(position_information(scan.across) * weakest_axis_) / weights;
   auto& [mean, variance] = squared_tilt_;
   if (gain == 1.0) {  // of one scan nothing is known
     mean = square;
@@ -88,12 +90,6 @@ double CrossValidatedInformation::tilt_of_noise(const HalvesInformation& scan, d
     variance = (1.0 - gain) * (variance + gain * difference * difference);
   }
   return std::sqrt(std::min(kLimit, kConfidence * kOfAverage * std::sqrt(variance)));
-}
-
-void CrossValidatedInformation::average(const HalvesInformation& scan, double gain) {
-  within_ += gain * (position_information(scan.within) - within_);
-  across_ += gain * (position_information(scan.across) - across_);
-  sum_of_weights_ += gain * (scan.within.bottomRightCorner<3, 3>().trace() - sum_of_weights_);
 }
 
 void CrossValidatedInformation::update_fraction(double free_tilt) {

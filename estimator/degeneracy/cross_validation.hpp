@@ -74,8 +74,7 @@ class CrossValidatedInformation {
   bool leaves_direction_free() const { return weakest_ <= 0.0; }
 
  private:
-  void average(const HalvesInformation& scan, double gain);
-  double tilt_of_noise(const HalvesInformation& scan, double gain);
+  double tilt_of_noise(double square, double gain);
   void update_fraction(double free_tilt);
 
   std::optional<Eigen::Vector3d> last_position_;

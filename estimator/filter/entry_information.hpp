@@ -12,8 +12,8 @@ namespace aims {
 using EntryMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 using EntryVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 
-/// Chi-square values that chance exceeds once in 10,000, for 1 to 6 degrees of freedom.
-inline constexpr std::array kNoChance = {15.1, 18.4, 21.1, 23.5, 25.7, 27.9};
+/// 99.99 % points of the chi-square distribution with 1 to 6 degrees of freedom.
+inline constexpr std::array kChiSquare9999 = {15.1, 18.4, 21.1, 23.5, 25.7, 27.9};
 
 /// What measurements say about consecutive entries of the error state that are constant, without
 /// the filter's prior and random walk: the sum of what each update adds to information matrix and

@@ -73,7 +73,7 @@ void JointCompliance::know(double value, double sigma) {
 void JointCompliance::judge_known() {
   if (!known_variance_ || walked_ < kLearningTime || information() == 0.0) return;
   const double difference = information_vector() / information() - value_;
-  contradicted_ = difference * difference > kNoChance[0] * (1.0 / information() + *known_variance_);
+  contradicted_ = difference * difference > kChiSquare9999[0] * (1.0 / information() + *known_variance_);
   if (contradicted_) known_variance_.reset();
 }
 

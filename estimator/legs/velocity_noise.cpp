@@ -19,7 +19,7 @@ constexpr int kAveragedWindows = 30;
 void VelocityNoise::advance(Time stamp) {
   if (!packet_) return;
   if (stamp - *packet_ > kLongestGap) window_.reset();
-  if (window_) window_->way += to_seconds(stamp - known_until_) * velocity_;
+  if (window_) window_->by_legs += to_seconds(stamp - known_until_) * velocity_;
   known_until_ = stamp;
 }
 
@@ -41,7 +41,7 @@ void VelocityNoise::at_scan(Time stamp, const Pose& T_odom_base, bool measured) 
     const double duration = to_seconds(stamp - window_->start);
     const Eigen::Vector3d difference =
         T_odom_base.rotation.conjugate() *
-        (window_->way - (T_odom_base.translation - window_->position));
+        (window_->by_legs - (T_odom_base.translation - window_->position));
     ++windows_;
     const double gain = 1.0 / std::min(windows_, kAveragedWindows);
     density_ += gain * (difference.cwiseAbs2() / duration - density_);

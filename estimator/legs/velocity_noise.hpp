@@ -9,12 +9,12 @@
 
 namespace aims {
 
-/// White-noise density of the velocity that a robot reports, learned where scans measure the way.
-/// Over windows of about two strides the way by the reported velocities, their scale and bias
-/// removed, is compared with the way by scans. A white noise of density q lets them differ by
-/// q T in the square, T the length of the window, and slow errors count as what they do over
-/// seconds. What the filter itself makes of the velocities does not enter, since a filter that
-/// believes them too much would find them right.
+/// White-noise density of the velocity that a robot reports, learned where scans constrain every
+/// direction. Over windows of about two strides the displacement integrated from the reported
+/// velocities, corrected by leg scale and bias, is compared with the displacement between the poses
+/// after the scans. White noise of density q gives a mean squared difference of q T over a window
+/// of length T; errors that vary more slowly count by what they do over a window. Innovations of
+/// the filter would not do: a filter that trusts the velocities too much finds them consistent.
 class VelocityNoise {
  public:
   /// Adds the corrected velocity of the base in odometry axes [m/s]. It holds until the next; a gap
@@ -31,15 +31,15 @@ class VelocityNoise {
  private:
   struct Window {
     Time start;
-    Eigen::Vector3d position;                       ///< of the base at the start, odometry axes [m]
-    Eigen::Vector3d way = Eigen::Vector3d::Zero();  ///< by legs since then [m]
+    Eigen::Vector3d position;  ///< of the base at the start, odometry axes [m]
+    Eigen::Vector3d by_legs = Eigen::Vector3d::Zero();  ///< displacement since then [m]
   };
 
   void advance(Time stamp);
 
   std::optional<Window> window_;
   std::optional<Time> packet_;  ///< the last one
-  Time known_until_ = 0;        ///< end of the way by legs
+  Time known_until_ = 0;        ///< until which velocities are integrated
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
   int windows_ = 0;
   Eigen::Vector3d density_ = Eigen::Vector3d::Zero();

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "live/dds/dds_program.hpp"
 #include "live/dds/dds_transport.hpp"
 #include "live/dds/discovery.hpp"
 #include "live/dds/playback.hpp"
-#include "live/program.hpp"
 #include "recordings/source/recording_file.hpp"
 
 namespace aims {
@@ -74,14 +74,7 @@ int main_of(int argc, char** argv) {
   arguments.dds.max_blocking = kMaxBlocking;
   CLI::App app("Publishes a recording on DDS at its own pace, as ROS 2 nodes do.", "aims_play");
   add_options(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    fmt::print("{}", app.help());
-    return kLiveOk;
-  } catch (const CLI::ParseError& error) {
-    return report_bad_input(kProgram, fmt::format("{}; see --help", error.what()));
-  }
+  if (const auto exit_code = exit_after_parsing(app, kProgram, argc, argv)) return *exit_code;
   return run(arguments);
 }
 

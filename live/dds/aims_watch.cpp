@@ -7,9 +7,9 @@
 #include <memory>
 #include <string>
 
+#include "live/dds/dds_program.hpp"
 #include "live/dds/dds_transport.hpp"
 #include "live/dds/discovery.hpp"
-#include "live/program.hpp"
 #include "live/watch/watch_page.hpp"
 #include "live/watch/watch_state.hpp"
 #include "live/watch/web_server.hpp"
@@ -88,14 +88,7 @@ int main_of(int argc, char** argv) {
   arguments.dds.domain = *domain;
   CLI::App app("Shows a live estimate in a browser.", kProgram);
   add_options(app, arguments);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    fmt::print("{}", app.help());
-    return kLiveOk;
-  } catch (const CLI::ParseError& error) {
-    return report_bad_input(kProgram, fmt::format("{}; see --help", error.what()));
-  }
+  if (const auto exit_code = exit_after_parsing(app, kProgram, argc, argv)) return *exit_code;
   return run(arguments);
 }
 

@@ -67,11 +67,7 @@ void HesaiScans::add_block(const Block& block) {
     point.intensity = static_cast<float>(std::to_integer<int>(bytes[2])) / 255.0F;
     point.ring = static_cast<std::uint16_t>(block.channels - 1 - channel);
     const Time time = block.stamp + static_cast<Duration>(std::llround(after));
-    if (scan_.points.empty()) scan_.stamp = time;
-    point.time_offset_ns =
-        static_cast<std::int32_t>(std::clamp<Duration>(time - scan_.stamp, -kSecond, kSecond));
-    scan_.end = std::max(scan_.end, time);
-    scan_.points.push_back(point);
+    revolutions_.add(point, time);
   }
 }
 
@@ -100,29 +96,15 @@ Result<std::optional<LidarScan>> HesaiScans::add(std::span<const std::byte> pack
       const int next = load_number<std::uint16_t>(block + block_size * step);
       turn_ = (next - azimuth + kFullTurn) % kFullTurn;
     }
-    if (azimuth_ && azimuth < *azimuth_) {
-      if (whole_ && !scan_.points.empty()) ended = std::move(scan_);
-      scan_ = LidarScan();
-      whole_ = true;
-    }
-    // A recording that begins with a revolution has all of it.
-    if (!azimuth_) whole_ = azimuth <= turn_;
-    azimuth_ = azimuth;
+    if (auto scan = revolutions_.begin_block(azimuth, turn_)) ended = std::move(scan);
     const double before = (kBlocks - step - i) / step * kBlockTime;
     constexpr double kUnit = 2.0 * std::numbers::pi / kFullTurn;
-    if (whole_) {
+    if (revolutions_.is_whole()) {
       add_block({block + kBlockHeader, lasers, 1e-3 * byte_at(packet, kUnitAt), azimuth * kUnit,
                  turn_ * kUnit / kBlockTime, *utc + static_cast<Duration>(kLastBlock - before)});
     }
   }
   return ended;
-}
-
-std::optional<LidarScan> HesaiScans::finish() {
-  const bool complete = whole_ && azimuth_ && *azimuth_ + 2 * turn_ >= kFullTurn;
-  LidarScan scan = std::exchange(scan_, {});
-  if (!complete || scan.points.empty()) return std::nullopt;
-  return scan;
 }
 
 }  // namespace aims

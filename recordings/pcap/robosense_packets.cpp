@@ -128,11 +128,7 @@ void RobosenseScans::add_return(const Block& block, int channel, double after) {
   point.intensity = static_cast<float>(std::to_integer<int>(bytes[2])) / 255.0F;
   point.ring = static_cast<std::uint16_t>(laser < 8 ? laser : 23 - laser);
   const Time time = block.stamp + static_cast<Duration>(std::llround(after));
-  if (scan_.points.empty()) scan_.stamp = time;
-  point.time_offset_ns =
-      static_cast<std::int32_t>(std::clamp<Duration>(time - scan_.stamp, -kSecond, kSecond));
-  scan_.end = std::max(scan_.end, time);
-  scan_.points.push_back(point);
+  revolutions_.add(point, time);
 }
 
 void RobosenseScans::add_block(const Block& block) {
@@ -153,15 +149,8 @@ std::optional<LidarScan> RobosenseScans::decode(std::span<const std::byte> packe
     int turn = turn_;
     if (i + 1 < kBlocks) turn = (azimuth_of(block + kBlockSize) - azimuth + kFullTurn) % kFullTurn;
     if (turn > 0 && turn <= kBlindZone) turn_ = turn;
-    if (azimuth_ && azimuth < *azimuth_) {
-      if (whole_ && !scan_.points.empty()) ended = std::move(scan_);
-      scan_ = LidarScan();
-      whole_ = true;
-    }
-    // A recording that begins with a revolution has all of it.
-    if (!azimuth_) whole_ = azimuth <= turn_;
-    azimuth_ = azimuth;
-    if (whole_) {
+    if (auto scan = revolutions_.begin_block(azimuth, turn_)) ended = std::move(scan);
+    if (revolutions_.is_whole()) {
       add_block({block + kBlockHeader, azimuth * kHundredth, turn_ * kHundredth,
                  stamp + static_cast<Duration>(passed)});
     }
@@ -197,10 +186,7 @@ std::optional<LidarScan> RobosenseScans::finish() {
   const std::vector<std::byte> last = std::exchange(held_, {});
   // A scan that the last packet ends leaves less than that packet for the next.
   if (auto ended = last.empty() ? std::nullopt : decode(last, held_stamp_)) return ended;
-  const bool complete = whole_ && azimuth_ && *azimuth_ + 2 * turn_ >= kFullTurn;
-  LidarScan scan = std::exchange(scan_, {});
-  if (!complete || scan.points.empty()) return std::nullopt;
-  return scan;
+  return revolutions_.finish();
 }
 
 }  // namespace aims

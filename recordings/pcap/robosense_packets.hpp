@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/measurements.hpp"
+#include "recordings/pcap/revolutions.hpp"
 
 namespace aims {
 
@@ -58,10 +59,8 @@ class RobosenseScans {
   Time held_stamp_ = 0;
   bool dual_ = false;
   bool informed_ = false;  ///< DIFOP states whether there are two returns
-  LidarScan scan_;
-  int turn_ = 0;                ///< of the head over the last block [0.01 deg]
-  bool whole_ = false;          ///< the present revolution began at its start
-  std::optional<int> azimuth_;  ///< of the last block [0.01 deg]
+  Revolutions revolutions_;
+  int turn_ = 0;  ///< of the head over the last block [0.01 deg]
 };
 
 }  // namespace aims

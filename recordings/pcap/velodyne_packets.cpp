@@ -87,10 +87,7 @@ void VelodyneScans::add_block(const std::byte* block, double turn, Time stamp) {
     point.intensity = static_cast<float>(std::to_integer<int>(bytes[2])) / 255.0F;
     point.ring = ring_of(laser);
     const Time time = stamp + static_cast<Duration>(std::llround(after));
-    if (scan_.points.empty()) scan_.stamp = time;
-    point.time_offset_ns = static_cast<std::int32_t>(time - scan_.stamp);
-    scan_.end = std::max(scan_.end, time);
-    scan_.points.push_back(point);
+    revolutions_.add(point, time);
   }
 }
 
@@ -111,30 +108,14 @@ Result<std::optional<LidarScan>> VelodyneScans::add(std::span<const std::byte> p
     if (load_number<std::uint16_t>(block) != kFlag) break;
     const int azimuth = azimuth_of(block);
     if (azimuth >= kFullTurn) break;
-    if (azimuth_ && azimuth < *azimuth_) {
-      if (whole_ && !scan_.points.empty()) ended = std::move(scan_);
-      scan_ = LidarScan();
-      whole_ = true;
-    }
-    if (!azimuth_ && i + step < kBlocks) {
-      // A capture that begins with a revolution has all of it.
-      whole_ = azimuth <= turn_between(azimuth, azimuth_of(block + kBlockSize * step));
-    }
-    azimuth_ = azimuth;
     // The last block has none behind it in the packet: the head turns on as before.
     if (i + step < kBlocks) turn = turn_between(azimuth, azimuth_of(block + kBlockSize * step));
+    if (auto scan = revolutions_.begin_block(azimuth, turn)) ended = std::move(scan);
     const auto passed = static_cast<Duration>(i / step * kSequences * kSequenceTime);
-    turn_ = turn;
-    if (whole_) add_block(block, turn * (2.0 * std::numbers::pi / kFullTurn), start + passed);
+    if (!revolutions_.is_whole()) continue;
+    add_block(block, turn * (2.0 * std::numbers::pi / kFullTurn), start + passed);
   }
   return ended;
-}
-
-std::optional<LidarScan> VelodyneScans::finish() {
-  const bool complete = whole_ && azimuth_ && *azimuth_ + 2 * turn_ >= kFullTurn;
-  LidarScan scan = std::exchange(scan_, {});
-  if (!complete || scan.points.empty()) return std::nullopt;
-  return scan;
 }
 
 }  // namespace aims

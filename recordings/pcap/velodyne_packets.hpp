@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/measurements.hpp"
+#include "recordings/pcap/revolutions.hpp"
 
 namespace aims {
 
@@ -24,15 +25,12 @@ class VelodyneScans {
   Result<std::optional<LidarScan>> add(std::span<const std::byte> packet, Time capture);
 
   /// The last scan, if it is complete.
-  std::optional<LidarScan> finish();
+  std::optional<LidarScan> finish() { return revolutions_.finish(); }
 
  private:
   void add_block(const std::byte* block, double turn, Time stamp);
 
-  LidarScan scan_;
-  int turn_ = 0;                ///< of the head over the last block [0.01 deg]
-  bool whole_ = false;          ///< the present revolution began at its start
-  std::optional<int> azimuth_;  ///< of the last block [0.01 deg]
+  Revolutions revolutions_;
 };
 
 }  // namespace aims

@@ -29,9 +29,10 @@ struct Harmonic {
 
 }  // namespace
 
-PeriodicField::PeriodicField(double deviation, double shortest, double longest, RandomStream random)
-    : nodes_(static_cast<std::size_t>(kColumns) * kRows, 0.0F) {
+PeriodicField::PeriodicField(double deviation, double shortest, double longest,
+                             RandomStream random) {
   if (deviation == 0.0) return;
+  nodes_.resize(static_cast<std::size_t>(kColumns) * kRows, 0.0F);
   double variance = 0.0;
   for (int wave = 0; wave < kWaves; ++wave) {
     const double length = shortest * std::pow(longest / shortest, random.uniform());
@@ -42,8 +43,8 @@ PeriodicField::PeriodicField(double deviation, double shortest, double longest, 
         static_cast<int>(std::lround(kColumns * kCell / length * std::cos(direction)));
     const auto up = static_cast<int>(std::lround(kRows * kCell / length * std::sin(direction)));
     const double amplitude = std::sqrt(length);
-    if (along != 0 || up != 0) variance += 0.5 * amplitude * amplitude;
     if (along == 0 && up == 0) continue;
+    variance += 0.5 * amplitude * amplitude;
     const Harmonic columns(along, kColumns, amplitude, phase);
     const Harmonic rows(up, kRows, 1.0, 0.0);
     for (int row = 0; row < kRows; ++row) {
@@ -58,6 +59,7 @@ PeriodicField::PeriodicField(double deviation, double shortest, double longest, 
 }
 
 PeriodicField::Sample PeriodicField::at(float u, float v) const {
+  if (nodes_.empty()) return {};
   static_assert((kColumns & (kColumns - 1)) == 0 && (kRows & (kRows - 1)) == 0);
   const float x = u / kCell;
   const float y = v / kCell;

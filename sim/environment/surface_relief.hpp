@@ -12,8 +12,8 @@
 
 namespace aims {
 
-/// A random field on the plane that repeats after kLength along u and kHeight along v, bilinear
-/// between the nodes of a grid.
+/// A random field on the plane that repeats after kColumns cells along u and kRows along v,
+/// bilinear between the nodes of a grid.
 class PeriodicField {
  public:
   static constexpr float kCell = 0.04F;  ///< [m]
@@ -34,7 +34,7 @@ class PeriodicField {
   Sample at(float u, float v) const;
 
  private:
-  std::vector<float> nodes_;  ///< row by row
+  std::vector<float> nodes_;  ///< row by row; none: 0 everywhere
 };
 
 /// Displaces rays' hits on the boxes and the floor of a scene by the relief of their surfaces, to

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "core/lie.hpp"
+#include "estimator/baselines/points/error_blocks.hpp"
 
 namespace aims::fast_lio2 {
 
@@ -59,17 +60,7 @@ struct Error {
 using ErrorVector = Eigen::Matrix<double, Error::kSize, 1>;
 using ErrorMatrix = Eigen::Matrix<double, Error::kSize, Error::kSize>;
 
-/// Three entries of an error vector, from a block's first on.
-inline auto part(ErrorVector& vector, int block) { return vector.segment<3>(block); }
-inline auto part(const ErrorVector& vector, int block) { return vector.segment<3>(block); }
-
-/// The 3x3 block of two blocks of three entries.
-inline auto part(ErrorMatrix& matrix, int row, int column) {
-  return matrix.block<3, 3>(row, column);
-}
-inline auto part(const ErrorMatrix& matrix, int row, int column) {
-  return matrix.block<3, 3>(row, column);
-}
+using points::part;
 
 /// x [+] error.
 State plus(const State& x, const ErrorVector& error);

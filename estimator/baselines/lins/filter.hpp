@@ -8,6 +8,7 @@
 #include "core/config.hpp"
 #include "core/lie.hpp"
 #include "estimator/baselines/features/feature_matches.hpp"
+#include "estimator/baselines/points/error_blocks.hpp"
 
 namespace aims::lins {
 
@@ -38,17 +39,7 @@ struct Error {
 using ErrorVector = Eigen::Matrix<double, Error::kSize, 1>;
 using ErrorMatrix = Eigen::Matrix<double, Error::kSize, Error::kSize>;
 
-/// Three entries of an error vector, from a block's first on.
-inline auto part(ErrorVector& vector, int block) { return vector.segment<3>(block); }
-inline auto part(const ErrorVector& vector, int block) { return vector.segment<3>(block); }
-
-/// The 3x3 block of two blocks.
-inline auto part(ErrorMatrix& matrix, int row, int column) {
-  return matrix.block<3, 3>(row, column);
-}
-inline auto part(const ErrorMatrix& matrix, int row, int column) {
-  return matrix.block<3, 3>(row, column);
-}
+using points::part;
 
 /// x [+] error.
 State plus(const State& x, const ErrorVector& error);
