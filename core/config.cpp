@@ -11,10 +11,6 @@
 namespace aims {
 namespace {
 
-// Beginnings of what a parameter of one number expects.
-constexpr std::string_view kNumber = "a number";
-constexpr std::string_view kInteger = "an integer";
-
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) return {};
@@ -105,10 +101,13 @@ std::string Range::text() const {
   return {};
 }
 
-bool is_integer(const Parameter& parameter) { return parameter.expected.starts_with(kInteger); }
-
 bool is_number(const Parameter& parameter) {
-  return parameter.expected.starts_with(kNumber) || is_integer(parameter);
+  return parameter.kind == ParameterKind::kNumber || parameter.kind == ParameterKind::kInteger;
+}
+
+bool is_sequence(const Parameter& parameter) {
+  return parameter.kind == ParameterKind::kVector || parameter.kind == ParameterKind::kNumbers ||
+         parameter.kind == ParameterKind::kTexts;
 }
 
 std::string option_proposal(const Parameter& parameter, std::string_view value) {
@@ -117,7 +116,8 @@ std::string option_proposal(const Parameter& parameter, std::string_view value) 
 }
 
 template <class Number>
-void Fields::add_number(std::string_view name, Number& value, Spec spec, std::string_view what) {
+void Fields::add_number(std::string_view name, ParameterKind kind, Number& value, Spec spec,
+                        std::string_view what) {
   const Range range = spec.range;
   auto assign = [&value, range](std::string_view text) {
     const auto parsed = parse<Number>(text);
@@ -126,16 +126,16 @@ void Fields::add_number(std::string_view name, Number& value, Spec spec, std::st
     return true;
   };
   add(
-      name, std::move(spec), with_range(what, range), [&value] { return fmt::format("{}", value); },
-      std::move(assign));
+      name, kind, std::move(spec), with_range(what, range),
+      [&value] { return fmt::format("{}", value); }, std::move(assign));
 }
 
 void Fields::number(std::string_view name, double& value, Spec spec) {
-  add_number(name, value, std::move(spec), kNumber);
+  add_number(name, ParameterKind::kNumber, value, std::move(spec), "a number");
 }
 
 void Fields::integer(std::string_view name, int& value, Spec spec) {
-  add_number(name, value, std::move(spec), kInteger);
+  add_number(name, ParameterKind::kInteger, value, std::move(spec), "an integer");
 }
 
 void Fields::flag(std::string_view name, bool& value, Spec spec) {
@@ -145,7 +145,7 @@ void Fields::flag(std::string_view name, bool& value, Spec spec) {
     return true;
   };
   add(
-      name, std::move(spec), "true or false",
+      name, ParameterKind::kFlag, std::move(spec), "true or false",
       [&value] { return std::string(value ? "true" : "false"); }, std::move(assign));
 }
 
@@ -155,7 +155,8 @@ void Fields::text(std::string_view name, std::string& value, Spec spec) {
     return true;
   };
   add(
-      name, std::move(spec), "a text", [&value] { return value; }, std::move(assign));
+      name, ParameterKind::kText, std::move(spec), "a text", [&value] { return value; },
+      std::move(assign));
 }
 
 void Fields::texts(std::string_view name, std::vector<std::string>& value, Spec spec) {
@@ -166,8 +167,8 @@ void Fields::texts(std::string_view name, std::vector<std::string>& value, Spec 
     return true;
   };
   add(
-      name, std::move(spec), "a list of texts like [a, b]",
-      [&value] { return sequence_text(value); }, std::move(assign), true);
+      name, ParameterKind::kTexts, std::move(spec), "a list of texts like [a, b]",
+      [&value] { return sequence_text(value); }, std::move(assign));
 }
 
 void Fields::numbers(std::string_view name, std::vector<double>& value, Spec spec) {
@@ -185,19 +186,20 @@ void Fields::numbers(std::string_view name, std::vector<double>& value, Spec spe
     return true;
   };
   add(
-      name, std::move(spec), with_range("a list of numbers like [a, b], each", range),
-      [&value] { return fmt::format("[{}]", fmt::join(value, ", ")); }, std::move(assign), true);
+      name, ParameterKind::kNumbers, std::move(spec),
+      with_range("a list of numbers like [a, b], each", range),
+      [&value] { return fmt::format("[{}]", fmt::join(value, ", ")); }, std::move(assign));
 }
 
 template <class Vector>
 void Fields::add_vector(std::string_view name, Vector& value, Spec spec, std::string_view what) {
   const Range range = spec.range;
   add(
-      name, std::move(spec), with_range(what, range),
+      name, ParameterKind::kVector, std::move(spec), with_range(what, range),
       [&value] {
         return fmt::format("[{}]", fmt::join(value.data(), value.data() + value.size(), ", "));
       },
-      [&value, range](std::string_view text) { return assign_vector(value, range, text); }, true);
+      [&value, range](std::string_view text) { return assign_vector(value, range, text); });
 }
 
 void Fields::vector(std::string_view name, Eigen::Vector3d& value, Spec spec) {
@@ -218,11 +220,10 @@ std::string Fields::full_key(std::string_view name) const {
   return prefix_.empty() ? std::string(name) : prefix_ + "." + std::string(name);
 }
 
-void Fields::add(std::string_view name, Spec spec, std::string expected,
-                 std::function<std::string()> text, std::function<bool(std::string_view)> assign,
-                 bool sequence) {
-  parameters_.push_back({full_key(name), std::move(spec), std::move(expected), std::move(text),
-                         std::move(assign), sequence});
+void Fields::add(std::string_view name, ParameterKind kind, Spec spec, std::string expected,
+                 std::function<std::string()> text, std::function<bool(std::string_view)> assign) {
+  parameters_.push_back({full_key(name), kind, std::move(spec), std::move(expected),
+                         std::move(text), std::move(assign)});
 }
 
 void Fields::idle_below_switch() {

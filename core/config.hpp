@@ -49,23 +49,25 @@ struct Spec {
   std::string source = {};   ///< equation, datasheet or document; may be empty
 };
 
+enum class ParameterKind { kNumber, kInteger, kFlag, kText, kChoice, kVector, kNumbers, kTexts };
+
 /// One scalar (or short vector) of a configuration, with its documentation.
 struct Parameter {
   std::string key;  ///< full dotted key, e.g. "estimators.aims.degeneracy.eta"
+  ParameterKind kind;
   Spec spec;
   std::string expected;               ///< e.g. "a number in [0, 1)", "one of point, rolling"
   std::function<std::string()> text;  ///< current value; of a sequence: "[a, b]"
   std::function<bool(std::string_view)> assign;  ///< false: not what was expected
-  bool sequence = false;                         ///< holds several scalars, written "[a, b]"
   std::string idle = {};  ///< why the value has no effect now, e.g. "legs.enabled is false"
   std::vector<std::string> options = {};  ///< of a choice: its names
 };
 
-/// Whether the parameter is one whole number.
-bool is_integer(const Parameter& parameter);
-
 /// Whether the parameter is one number, whole or not; false for a vector.
 bool is_number(const Parameter& parameter);
+
+/// Whether the parameter holds several scalars, written "[a, b]".
+bool is_sequence(const Parameter& parameter);
 
 /// A list of groups inside a configuration, e.g. the points of a route.
 struct ListField {
@@ -131,12 +133,12 @@ class Fields {
   std::string full_key(std::string_view name) const;
   void idle_below_switch();
   template <class Number>
-  void add_number(std::string_view name, Number& value, Spec spec, std::string_view what);
+  void add_number(std::string_view name, ParameterKind kind, Number& value, Spec spec,
+                  std::string_view what);
   template <class Vector>
   void add_vector(std::string_view name, Vector& value, Spec spec, std::string_view what);
-  void add(std::string_view name, Spec spec, std::string expected,
-           std::function<std::string()> text, std::function<bool(std::string_view)> assign,
-           bool sequence = false);
+  void add(std::string_view name, ParameterKind kind, Spec spec, std::string expected,
+           std::function<std::string()> text, std::function<bool(std::string_view)> assign);
 
   std::string prefix_;
   std::vector<Parameter> parameters_;
@@ -208,7 +210,8 @@ void Fields::choice(std::string_view name, Enum& value,
     }
     return false;
   };
-  add(name, std::move(spec), std::move(expected), std::move(text), std::move(assign));
+  add(name, ParameterKind::kChoice, std::move(spec), std::move(expected), std::move(text),
+      std::move(assign));
   for (const auto& [label, option] : options) parameters_.back().options.push_back(label);
 }
 

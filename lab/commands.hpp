@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "bench/cli/command.hpp"
+#include "cli/command.hpp"
 
 namespace aims {
 

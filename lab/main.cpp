@@ -2,8 +2,8 @@
 #include <array>
 #include <filesystem>
 
-#include "bench/cli/command.hpp"
-#include "bench/run/catalogue.hpp"
+#include "bench/scenario/catalogue.hpp"
+#include "cli/command.hpp"
 #include "lab/commands.hpp"
 
 namespace {

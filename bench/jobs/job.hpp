@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/run/scenario.hpp"
-#include "bench/run/score_record.hpp"
+#include "bench/scenario/scenario.hpp"
+#include "bench/scoring/score_record.hpp"
 #include "core/error.hpp"
 #include "estimator/estimator_spec.hpp"
 

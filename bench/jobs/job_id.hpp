@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "bench/jobs/job.hpp"
-#include "bench/run/scenario.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "core/error.hpp"
 #include "estimator/estimator_spec.hpp"
 

@@ -57,7 +57,7 @@ struct JobRun {
   std::size_t done = 0;       ///< evaluated now, failures included
   std::size_t failed = 0;     ///< of them
   std::size_t reused = 0;     ///< found finished
-  std::size_t invalid = 0;    ///< of both: on invalid runs (bench/run/validity.hpp)
+  std::size_t invalid = 0;    ///< of both: on invalid runs (bench/scoring/validity.hpp)
   std::size_t sequences = 0;  ///< simulated now
   bool complete = true;       ///< false when the observer ended it early
   CachePruned pruned;         ///< from the cache, in all runs of the runner

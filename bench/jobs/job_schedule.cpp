@@ -8,12 +8,11 @@
 #include <system_error>
 #include <utility>
 
-#include "bench/run/estimator_files.hpp"
-#include "bench/run/json_text.hpp"
-#include "bench/run/score_record.hpp"
-#include "bench/run/sequence_record.hpp"
-#include "bench/run/validity.hpp"
 #include "bench/run/weak_axis_series.hpp"
+#include "bench/scoring/estimator_files.hpp"
+#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/score_record.hpp"
+#include "bench/scoring/validity.hpp"
 #include "core/files/csv.hpp"
 
 namespace aims {
@@ -147,8 +146,7 @@ Result<void> JobSchedule::start_job(SequenceWork& work) {
     Result<void> stored;
     if (outcome) {
       result.scores = estimator_json(*outcome);
-      result.sequence = sequence_json(sequence, outcome->scores);
-      if (!job.scenario->drawn.empty()) result.sequence["drawn"] = drawn_json(job.scenario->drawn);
+      result.sequence = sequence_json(sequence, *job.scenario, outcome->scores);
       stored =
           write_outputs(runner_.store_, runner_.options_.outputs, job, work.id, sequence, *outcome);
     } else {

@@ -8,8 +8,8 @@
 #include <system_error>
 
 #include "bench/run/code_version.hpp"
-#include "bench/run/json_text.hpp"
 #include "bench/run/sequence.hpp"
+#include "bench/scoring/json_text.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/csv.hpp"
 #include "core/files/csv_columns.hpp"

@@ -10,10 +10,10 @@
 #include <tuple>
 #include <vector>
 
+#include "bench/estimate/stream.hpp"
 #include "bench/jobs/job_id.hpp"
 #include "bench/run/code_version.hpp"
 #include "bench/run/sequence_file.hpp"
-#include "bench/run/stream.hpp"
 #include "core/background_tasks.hpp"
 #include "core/files/config_dump.hpp"
 #include "sim/simulation.hpp"

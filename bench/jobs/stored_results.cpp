@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "bench/jobs/job_store.hpp"
-#include "bench/run/json_text.hpp"
-#include "bench/run/validity.hpp"
+#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/validity.hpp"
 #include "core/files/atomic_file.hpp"
 
 namespace aims {

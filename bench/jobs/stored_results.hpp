@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/jobs/job.hpp"
-#include "bench/run/score_record.hpp"
+#include "bench/scoring/score_record.hpp"
 #include "core/error.hpp"
 
 namespace aims {

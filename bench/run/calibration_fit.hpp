@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/scenario.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "estimator/robot_calibration.hpp"
 
 namespace aims {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/run/evaluate.hpp"
 
-#include "bench/run/stream.hpp"
-#include "bench/run/validity.hpp"
+#include "bench/estimate/stream.hpp"
+#include "bench/scoring/validity.hpp"
 
 namespace aims {
 namespace {

@@ -4,15 +4,15 @@
 #include <functional>
 #include <string>
 
-#include "bench/run/outcome.hpp"
-#include "bench/run/scenario.hpp"
 #include "bench/run/sequence.hpp"
+#include "bench/scenario/scenario.hpp"
+#include "bench/scoring/outcome.hpp"
 #include "core/error.hpp"
 
 namespace aims {
 
 /// Scores an outcome against the truth of its sequence, the re-optimized trajectory by the same
-/// rules as the online one. On an invalid run (bench/run/validity.hpp) neither is a success.
+/// rules as the online one. On an invalid run (bench/scoring/validity.hpp) neither is a success.
 void add_scores(const Sequence& sequence, const Scenario& scenario, EstimatorOutcome& outcome);
 
 /// Called with the part of the sequence that is done, in [0, 1].

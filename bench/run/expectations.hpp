@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/scenario.hpp"
-#include "bench/run/score_record.hpp"
-#include "bench/run/validity.hpp"
+#include "bench/scenario/scenario.hpp"
+#include "bench/scoring/score_record.hpp"
+#include "bench/scoring/validity.hpp"
 
 namespace aims {
 

@@ -7,11 +7,11 @@
 #include <variant>
 #include <vector>
 
+#include "bench/estimate/new_recording.hpp"
+#include "bench/estimate/stream.hpp"
 #include "bench/run/code_version.hpp"
-#include "bench/run/new_recording.hpp"
 #include "bench/run/sequence.hpp"
-#include "bench/run/stream.hpp"
-#include "bench/run/tables.hpp"
+#include "bench/scoring/tables.hpp"
 #include "core/attitude_filter.hpp"
 #include "core/files/tum.hpp"
 #include "core/stopwatch.hpp"

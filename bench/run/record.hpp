@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "bench/run/progress.hpp"
-#include "bench/run/scenario.hpp"
+#include "bench/estimate/progress.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "core/error.hpp"
 #include "recordings/bag/compression.hpp"
 #include "sim/robot/walk_outcome.hpp"

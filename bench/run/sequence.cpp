@@ -5,9 +5,9 @@
 
 #include <utility>
 
+#include "bench/estimate/shown_scans.hpp"
 #include "bench/run/run_legs.hpp"
-#include "bench/run/shown_scans.hpp"
-#include "bench/run/tables.hpp"
+#include "bench/scoring/tables.hpp"
 #include "core/files/csv_columns.hpp"
 #include "core/files/tum.hpp"
 
@@ -99,6 +99,14 @@ Result<std::vector<RobotSnapshot>> read_snapshots(const std::filesystem::path& f
     }
   }
   return snapshots;
+}
+
+Json sequence_json(const Sequence& sequence, const Scenario& scenario, const Scores& scores) {
+  const RunLocalizability& localizability = sequence.localizability;
+  Json json = sequence_json(to_seconds(sequence.end()), sequence.walk, scores, localizability.scans,
+                            localizability.bounds);
+  if (!scenario.drawn.empty()) json["drawn"] = drawn_json(scenario.drawn);
+  return json;
 }
 
 }  // namespace aims

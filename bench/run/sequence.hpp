@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bench/run/run_localizability.hpp"
-#include "bench/run/scenario.hpp"
 #include "bench/run/sequence_file.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "core/error.hpp"
 #include "core/trajectory.hpp"
 
@@ -33,9 +33,12 @@ Result<Sequence> open_sequence(const std::filesystem::path& file, const Scenario
 
 /// Writes what is known of the sequence whoever estimates: truth.tum, waypoint_times.csv,
 /// localizability.csv, legs.csv, and for pictures snapshots.csv (the robot's joints at 10 Hz) and
-/// scans.csv (bench/run/shown_scans.hpp).
+/// scans.csv (bench/estimate/shown_scans.hpp).
 Result<void> write_sequence(const Sequence& sequence, const Scenario& scenario,
                             const std::filesystem::path& folder);
+
+/// What scores.json holds of the run whoever estimates; `scores` are of any estimator.
+Json sequence_json(const Sequence& sequence, const Scenario& scenario, const Scores& scores);
 
 /// Names of the files that `write_sequence` writes.
 inline constexpr const char* kSequenceFiles[] = {"truth.tum",          "waypoint_times.csv",

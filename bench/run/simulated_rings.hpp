@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/ring_note.hpp"
-#include "bench/run/scenario.hpp"
+#include "bench/estimate/ring_note.hpp"
+#include "bench/scenario/scenario.hpp"
 
 namespace aims {
 

@@ -4,12 +4,12 @@
 #include <algorithm>
 
 #include "bench/run/expectations.hpp"
-#include "bench/run/json_text.hpp"
-#include "bench/run/report.hpp"
-#include "bench/run/score_statistics.hpp"
-#include "bench/run/score_table.hpp"
-#include "bench/run/tables.hpp"
-#include "bench/run/validity.hpp"
+#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/report.hpp"
+#include "bench/scoring/score_statistics.hpp"
+#include "bench/scoring/score_table.hpp"
+#include "bench/scoring/tables.hpp"
+#include "bench/scoring/validity.hpp"
 
 namespace aims {
 namespace {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <span>
 
-#include "bench/run/scenario.hpp"
-#include "bench/run/score_record.hpp"
+#include "bench/scenario/scenario.hpp"
+#include "bench/scoring/score_record.hpp"
 #include "core/error.hpp"
 
 namespace aims {

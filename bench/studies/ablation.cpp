@@ -10,7 +10,7 @@
 namespace aims {
 namespace {
 
-bool is_flag(const Parameter& parameter) { return parameter.expected == "true or false"; }
+bool is_flag(const Parameter& parameter) { return parameter.kind == ParameterKind::kFlag; }
 
 /// "ground_constraint" of "ground_constraint.enabled", "lidar_leave_out_mixed" of
 /// "lidar.leave_out_mixed".

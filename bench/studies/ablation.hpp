@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/run/score_statistics.hpp"
+#include "bench/scoring/score_statistics.hpp"
 #include "bench/studies/suite.hpp"
 #include "core/error.hpp"
 #include "core/files/table.hpp"

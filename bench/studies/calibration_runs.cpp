@@ -7,7 +7,7 @@
 
 #include "bench/jobs/sequence_cache.hpp"
 #include "bench/run/sequence.hpp"
-#include "bench/run/validity.hpp"
+#include "bench/scoring/validity.hpp"
 
 namespace aims {
 Result<CalibrationRun> calibration_run(const Scenario& scenario, std::uint64_t seed,

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "bench/run/estimate.hpp"
+#include "bench/estimate/estimate.hpp"
+#include "bench/estimate/robot_calibration.hpp"
 #include "bench/run/evaluate.hpp"
-#include "bench/run/robot_calibration.hpp"
-#include "bench/run/scenario.hpp"
+#include "bench/scenario/scenario.hpp"
 
 namespace aims {
 

@@ -10,8 +10,8 @@
 #include <set>
 
 #include "bench/metrics/statistics.hpp"
-#include "bench/run/score_statistics.hpp"
-#include "bench/run/validity.hpp"
+#include "bench/scoring/score_statistics.hpp"
+#include "bench/scoring/validity.hpp"
 
 namespace aims {
 namespace {

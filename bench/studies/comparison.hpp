@@ -11,7 +11,7 @@
 #include "bench/jobs/stored_results.hpp"
 #include "bench/metrics/paired_test.hpp"
 #include "bench/metrics/proportion.hpp"
-#include "bench/run/score_record.hpp"
+#include "bench/scoring/score_record.hpp"
 #include "core/files/table.hpp"
 
 namespace aims {

@@ -5,8 +5,8 @@
 #include <iterator>
 #include <set>
 
-#include "bench/run/json_text.hpp"
-#include "bench/run/report.hpp"
+#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/report.hpp"
 #include "bench/studies/comparison.hpp"
 
 namespace aims {

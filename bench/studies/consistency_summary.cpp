@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include "bench/run/code_version.hpp"
-#include "bench/run/json_text.hpp"
-#include "bench/run/report.hpp"
-#include "bench/run/score_record.hpp"
+#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/report.hpp"
+#include "bench/scoring/score_record.hpp"
 #include "bench/studies/consistency_study.hpp"
 #include "core/files/csv.hpp"
 

@@ -9,12 +9,12 @@
 #include <set>
 #include <utility>
 
+#include "bench/estimate/estimate_summary.hpp"
 #include "bench/jobs/job_id.hpp"
 #include "bench/jobs/recorded_jobs.hpp"
 #include "bench/run/code_version.hpp"
-#include "bench/run/estimate_summary.hpp"
-#include "bench/run/json_text.hpp"
-#include "bench/run/report.hpp"
+#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/report.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "core/files/config_dump.hpp"
 

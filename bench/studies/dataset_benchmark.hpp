@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/dataset_sequences.hpp"
+#include "bench/estimate/dataset_sequences.hpp"
 #include "bench/studies/suite.hpp"
 #include "core/error.hpp"
 #include "core/files/table.hpp"

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "bench/jobs/sequence_cache.hpp"
-#include "bench/run/estimator_files.hpp"
 #include "bench/run/run_localizability.hpp"
-#include "bench/run/tables.hpp"
+#include "bench/scoring/estimator_files.hpp"
+#include "bench/scoring/tables.hpp"
 #include "bench/studies/detector_summary.hpp"
 #include "bench/studies/detectors.hpp"
 #include "core/files/csv_columns.hpp"

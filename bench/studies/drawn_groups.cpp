@@ -8,9 +8,9 @@
 #include <set>
 #include <span>
 
-#include "bench/run/json_text.hpp"
-#include "bench/run/report.hpp"
-#include "bench/run/validity.hpp"
+#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/report.hpp"
+#include "bench/scoring/validity.hpp"
 #include "core/config.hpp"
 
 namespace aims {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/jobs/stored_results.hpp"
-#include "bench/run/score_statistics.hpp"
+#include "bench/scoring/score_statistics.hpp"
 #include "core/error.hpp"
 #include "core/files/csv.hpp"
 #include "core/files/table.hpp"

@@ -7,8 +7,8 @@
 #include <map>
 
 #include "bench/metrics/statistics.hpp"
-#include "bench/run/json_text.hpp"
-#include "bench/run/score_statistics.hpp"
+#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/score_statistics.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "estimator/estimator_spec.hpp"
 

@@ -10,9 +10,9 @@
 #include <mutex>
 #include <set>
 
+#include "bench/estimate/stream.hpp"
 #include "bench/run/evaluate.hpp"
-#include "bench/run/report.hpp"
-#include "bench/run/stream.hpp"
+#include "bench/scoring/report.hpp"
 #include "core/files/csv.hpp"
 
 namespace aims {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/scenario.hpp"
 #include "bench/run/sequence.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "bench/studies/stream_faults.hpp"
 #include "core/error.hpp"
 #include "core/files/table.hpp"

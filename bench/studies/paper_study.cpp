@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "bench/metrics/rank_correlation.hpp"
-#include "bench/run/score_statistics.hpp"
-#include "bench/run/validity.hpp"
+#include "bench/scoring/score_statistics.hpp"
+#include "bench/scoring/validity.hpp"
 
 namespace aims {
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "bench/metrics/bootstrap.hpp"
-#include "bench/run/score_record.hpp"
-#include "bench/run/score_statistics.hpp"
+#include "bench/scoring/score_record.hpp"
+#include "bench/scoring/score_statistics.hpp"
 #include "bench/studies/suite.hpp"
 #include "core/error.hpp"
 #include "core/files/table.hpp"

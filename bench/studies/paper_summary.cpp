@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include "bench/run/json_text.hpp"
-#include "bench/run/report.hpp"
-#include "bench/run/score_statistics.hpp"
+#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/report.hpp"
+#include "bench/scoring/score_statistics.hpp"
 #include "bench/studies/paper_study.hpp"
 #include "core/files/csv.hpp"
 

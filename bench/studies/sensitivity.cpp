@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "bench/metrics/statistics.hpp"
-#include "bench/run/score_statistics.hpp"
+#include "bench/scoring/score_statistics.hpp"
 
 namespace aims {
 namespace {
@@ -19,8 +19,8 @@ constexpr const char* kAte = "ate_yaw_m";  ///< the headline
 std::string scaled_text(const Parameter& parameter, double factor) {
   const auto scaled = [&](const std::string& number) {
     const double value = factor * std::stod(number);
-    return is_integer(parameter) ? fmt::format("{}", std::llround(value))
-                                 : fmt::format("{:.9g}", value);
+    return parameter.kind == ParameterKind::kInteger ? fmt::format("{}", std::llround(value))
+                                                     : fmt::format("{:.9g}", value);
   };
   auto entries = sequence_entries(parameter.text());
   if (!entries) return scaled(parameter.text());
@@ -29,7 +29,8 @@ std::string scaled_text(const Parameter& parameter, double factor) {
 }
 
 bool holds_numbers(const Parameter& parameter) {
-  return is_number(parameter) || parameter.text().starts_with('[');
+  return is_number(parameter) || parameter.kind == ParameterKind::kVector ||
+         parameter.kind == ParameterKind::kNumbers;
 }
 
 std::string variant_label(const std::string& key, double factor) {

@@ -3,9 +3,9 @@
 
 #include "bench/metrics/proportion.hpp"
 #include "bench/run/code_version.hpp"
-#include "bench/run/json_text.hpp"
-#include "bench/run/report.hpp"
-#include "bench/run/score_record.hpp"
+#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/report.hpp"
+#include "bench/scoring/score_record.hpp"
 #include "bench/studies/sensitivity.hpp"
 #include "core/files/csv.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/score_statistics.hpp"
+#include "bench/scoring/score_statistics.hpp"
 #include "bench/studies/suite.hpp"
 
 namespace aims {

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "bench/jobs/job_runner.hpp"
-#include "bench/run/catalogue.hpp"
 #include "bench/run/expectations.hpp"
-#include "bench/run/score_record.hpp"
+#include "bench/scenario/catalogue.hpp"
+#include "bench/scoring/score_record.hpp"
 #include "core/error.hpp"
 
 namespace aims {

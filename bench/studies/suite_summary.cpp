@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "bench/run/code_version.hpp"
-#include "bench/run/json_text.hpp"
-#include "bench/run/report.hpp"
+#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/report.hpp"
 #include "bench/studies/families.hpp"
 #include "bench/studies/success_pairs.hpp"
 #include "bench/studies/suite_tables.hpp"

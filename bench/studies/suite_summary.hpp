@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/run/score_statistics.hpp"
+#include "bench/scoring/score_statistics.hpp"
 #include "bench/studies/suite.hpp"
 
 namespace aims {
@@ -29,8 +29,8 @@ Json failures_json(const Suite& suite);
 /// True when `folder` holds the suite.json of a suite.
 bool holds_suite(const std::filesystem::path& folder);
 
-/// Writes suite.json, suite.csv, suite.md and timings.csv; see docs/result-files.md. Only timings.csv
-/// has times in it.
+/// Writes suite.json, suite.csv, suite.md and timings.csv; see docs/result-files.md. Only
+/// timings.csv has times in it.
 Result<void> write_suite(const Suite& suite, const std::filesystem::path& folder);
 
 }  // namespace aims

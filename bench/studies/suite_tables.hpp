@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/score_statistics.hpp"
+#include "bench/scoring/score_statistics.hpp"
 #include "bench/studies/families.hpp"
 #include "bench/studies/suite.hpp"
 #include "core/files/csv.hpp"

@@ -6,12 +6,12 @@
 #include <system_error>
 
 #include "bench/jobs/sequence_cache.hpp"
-#include "bench/run/estimator_files.hpp"
-#include "bench/run/json_text.hpp"
-#include "bench/run/score_record.hpp"
 #include "bench/run/sequence.hpp"
 #include "bench/run/summary.hpp"
-#include "bench/run/tables.hpp"
+#include "bench/scoring/estimator_files.hpp"
+#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/score_record.hpp"
+#include "bench/scoring/tables.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/manifest.hpp"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "bench/run/json_text.hpp"
+#include "bench/scoring/json_text.hpp"
 #include "bench/studies/suite.hpp"
 #include "core/error.hpp"
 
@@ -12,8 +12,8 @@ namespace aims {
 
 /// Writes the results of one scenario and seed as `aims run` shows them into `folder`: scores.json,
 /// scores.csv, config.yaml, the files of the sequence (bench/run/sequence.hpp) and of each
-/// estimator (bench/run/estimator_files.hpp). Those that jobs made are linked, not copied, where the disk
-/// can.
+/// estimator (bench/scoring/estimator_files.hpp). Those that jobs made are linked, not copied,
+/// where the disk can.
 Result<void> write_run(const JobStore& store, const Suite& suite, const SuiteCase& each,
                        const RunRecord& record, const std::filesystem::path& folder);
 

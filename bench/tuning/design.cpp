@@ -83,7 +83,7 @@ double rounded(double value) {
 
 const Parameter* integer_parameter(const Fields& fields, const std::string& key) {
   const Parameter* parameter = fields.find(key);
-  return parameter != nullptr && is_integer(*parameter) ? parameter : nullptr;
+  return parameter != nullptr && parameter->kind == ParameterKind::kInteger ? parameter : nullptr;
 }
 
 std::vector<std::vector<double>> grid(std::span<const ParameterRange> ranges, std::size_t size) {

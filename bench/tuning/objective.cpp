@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "bench/metrics/statistics.hpp"
-#include "bench/run/validity.hpp"
+#include "bench/scoring/validity.hpp"
 
 namespace aims {
 namespace {

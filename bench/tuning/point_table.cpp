@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/metrics/statistics.hpp"
-#include "bench/run/score_record.hpp"
+#include "bench/scoring/score_record.hpp"
 #include "bench/tuning/analysis.hpp"
 #include "bench/tuning/response_summary.hpp"
 

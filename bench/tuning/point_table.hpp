@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "bench/run/json_text.hpp"
+#include "bench/scoring/json_text.hpp"
 #include "bench/tuning/sweep_summary.hpp"
 #include "core/files/table.hpp"
 
@@ -15,8 +15,9 @@ namespace aims {
 /// setting comes first; the least objective of an estimator is marked "best".
 TextTable point_table(std::span<const SweepResponse> responses, const Objective& objective);
 
-/// The same of one estimator: `estimator`, `objective` (what it is), `incomplete` and `points`, each
-/// with `values`, `objective`, `score_median`, `score_worst`, `diverged`, `runs`, `default`, `best`.
+/// The same of one estimator: `estimator`, `objective` (what it is), `incomplete` and `points`,
+/// each with `values`, `objective`, `score_median`, `score_worst`, `diverged`, `runs`, `default`,
+/// `best`.
 Json response_json(const SweepResponse& response, const Objective& objective);
 
 }  // namespace aims

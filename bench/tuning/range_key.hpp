@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/run/scenario.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "bench/tuning/design.hpp"
 #include "core/error.hpp"
 

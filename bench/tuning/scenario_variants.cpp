@@ -20,7 +20,7 @@ ScenarioVariants::ScenarioVariants(std::shared_ptr<const Scenario> base,
     const std::string full = full_key(ranges[i]);
     const Parameter* parameter = fields.find(full);
     if (parameter == nullptr) continue;  // `check_ranges` has refused it
-    varied_.push_back({i, full, parameter->text(), is_integer(*parameter)});
+    varied_.push_back({i, full, parameter->text(), parameter->kind == ParameterKind::kInteger});
   }
 }
 

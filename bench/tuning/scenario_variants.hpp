@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/jobs/job.hpp"
-#include "bench/run/scenario.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "bench/tuning/design.hpp"
 #include "core/error.hpp"
 

@@ -5,8 +5,8 @@
 #include <set>
 #include <utility>
 
-#include "bench/run/json_text.hpp"
-#include "bench/run/validity.hpp"
+#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/validity.hpp"
 #include "bench/tuning/sweep_store.hpp"
 #include "core/files/csv.hpp"
 

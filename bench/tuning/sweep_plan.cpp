@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "bench/jobs/job_id.hpp"
-#include "bench/run/catalogue.hpp"
-#include "bench/run/seeds.hpp"
+#include "bench/scenario/catalogue.hpp"
+#include "bench/scenario/seeds.hpp"
 #include "bench/tuning/plan_paths.hpp"
 #include "bench/tuning/range_key.hpp"
 #include "bench/tuning/scenario_variants.hpp"

@@ -9,7 +9,7 @@
 #include <optional>
 #include <system_error>
 
-#include "bench/run/json_text.hpp"
+#include "bench/scoring/json_text.hpp"
 
 namespace aims {
 namespace {

@@ -25,7 +25,7 @@ struct MergedJob {
 
   /// "done", "invalid", "failed", "crashed", "timed_out" or "missing".
   std::string outcome() const;
-  /// Why its run is invalid (bench/run/validity.hpp).
+  /// Why its run is invalid (bench/scoring/validity.hpp).
   std::optional<std::string> invalid() const;
 };
 

@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "bench/run/json_text.hpp"
+#include "bench/scoring/json_text.hpp"
 #include "bench/tuning/range_key.hpp"
 #include "bench/tuning/response_summary.hpp"
 #include "bench/tuning/sweep_plan.hpp"

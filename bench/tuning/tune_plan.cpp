@@ -7,8 +7,8 @@
 #include <span>
 #include <utility>
 
-#include "bench/run/score_keys.hpp"
-#include "bench/run/seeds.hpp"
+#include "bench/scenario/score_keys.hpp"
+#include "bench/scenario/seeds.hpp"
 #include "bench/tuning/plan_paths.hpp"
 #include "bench/tuning/range_key.hpp"
 #include "bench/tuning/sweep_plan.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/scenario.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "bench/tuning/design.hpp"
 #include "bench/tuning/objective.hpp"
 #include "bench/tuning/optimizer.hpp"

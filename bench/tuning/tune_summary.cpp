@@ -7,7 +7,7 @@
 
 #include "bench/metrics/paired_test.hpp"
 #include "bench/run/code_version.hpp"
-#include "bench/run/score_record.hpp"
+#include "bench/scoring/score_record.hpp"
 #include "bench/tuning/response_summary.hpp"
 #include "bench/tuning/tune_overlay.hpp"
 #include "core/files/atomic_file.hpp"

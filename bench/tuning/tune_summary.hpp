@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/json_text.hpp"
+#include "bench/scoring/json_text.hpp"
 #include "bench/tuning/held_out.hpp"
 #include "bench/tuning/response_summary.hpp"
 #include "bench/tuning/tune.hpp"
@@ -29,8 +29,8 @@ PairedGain held_out_gain(const TuneResult& result);
 /// tuning that was interrupted before them, so.
 std::string held_out_verdict(const TuneResult& result);
 
-/// What the held-out sequences say of a Pareto front, on one line: how many of its points are better
-/// than the defaults, significantly in one objective and in none worse.
+/// What the held-out sequences say of a Pareto front, on one line: how many of its points are
+/// better than the defaults, significantly in one objective and in none worse.
 std::string front_verdict(const TuneResult& result);
 
 /// Schema aims.tune/1: objectives, verdict, and values and objectives of the defaults and of the

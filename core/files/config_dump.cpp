@@ -93,7 +93,7 @@ std::string in_quotes(const std::string& text) {
 
 std::string yaml_value(const Parameter& parameter) {
   const std::string text = parameter.text();
-  if (!parameter.sequence) return is_plain(text) ? text : in_quotes(text);
+  if (!is_sequence(parameter)) return is_plain(text) ? text : in_quotes(text);
   std::vector<std::string> entries = sequence_entries(text).value_or(std::vector<std::string>());
   for (std::string& entry : entries) {
     if (!is_plain(entry)) entry = in_quotes(entry);

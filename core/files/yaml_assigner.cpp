@@ -109,7 +109,7 @@ Result<void> YamlAssigner::assign_value(const Parameter& parameter, const std::s
                  fmt::format("expected {}, found {}{}", parameter.expected, shown(value),
                              option_proposal(parameter, shown(value))));
   };
-  if (parameter.sequence != value.IsSequence()) return refuse();
+  if (is_sequence(parameter) != value.IsSequence()) return refuse();
   if (!value.IsSequence() && !value.IsScalar()) return refuse();
   const auto text = flow_text(value);
   if (!text || !parameter.assign(*text)) return refuse();

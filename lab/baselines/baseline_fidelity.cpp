@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/estimate/bag_origin.hpp"
 #include "bench/metrics/segments.hpp"
-#include "bench/run/bag_origin.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/tum.hpp"
 #include "core/files/waypoint_times.hpp"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/estimate/estimate.hpp"
 #include "bench/metrics/scores.hpp"
-#include "bench/run/estimate.hpp"
 #include "core/error.hpp"
 #include "core/files/table.hpp"
 

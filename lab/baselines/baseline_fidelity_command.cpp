@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "lab/commands.hpp"
-#include "bench/cli/options.hpp"
-#include "bench/cli/progress.hpp"
-#include "bench/cli/terminal.hpp"
-#include "lab/baselines/baseline_fidelity.hpp"
+#include "cli/options.hpp"
+#include "cli/progress.hpp"
+#include "cli/terminal.hpp"
 #include "core/files/output_folder.hpp"
+#include "lab/baselines/baseline_fidelity.hpp"
+#include "lab/commands.hpp"
 
 namespace aims {
 namespace {

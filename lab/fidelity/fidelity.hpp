@@ -8,13 +8,13 @@
 #include <string_view>
 #include <vector>
 
-#include "lab/fidelity/range_residuals.hpp"
-#include "bench/run/scenario.hpp"
-#include "lab/fidelity/imu_statistics.hpp"
-#include "lab/fidelity/stance_profile.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "core/error.hpp"
 #include "core/files/table.hpp"
 #include "core/leg_kinematics.hpp"
+#include "lab/fidelity/imu_statistics.hpp"
+#include "lab/fidelity/range_residuals.hpp"
+#include "lab/fidelity/stance_profile.hpp"
 
 namespace aims {
 

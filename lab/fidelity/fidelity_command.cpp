@@ -5,13 +5,13 @@
 #include <string>
 #include <string_view>
 
-#include "lab/commands.hpp"
-#include "bench/cli/options.hpp"
-#include "bench/cli/progress.hpp"
-#include "bench/cli/terminal.hpp"
-#include "bench/run/scenario_draws.hpp"
-#include "lab/fidelity/fidelity.hpp"
+#include "bench/scenario/scenario_draws.hpp"
+#include "cli/options.hpp"
+#include "cli/progress.hpp"
+#include "cli/terminal.hpp"
 #include "core/files/output_folder.hpp"
+#include "lab/commands.hpp"
+#include "lab/fidelity/fidelity.hpp"
 
 namespace aims {
 namespace {

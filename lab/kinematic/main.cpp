@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
+#include "bench/estimate/stream.hpp"
 #include "bench/metrics/statistics.hpp"
-#include "bench/run/seeds.hpp"
-#include "bench/run/stream.hpp"
+#include "bench/scenario/seeds.hpp"
 #include "estimator/estimator_spec.hpp"
 #include "tests/support/kinematic_world.hpp"
 

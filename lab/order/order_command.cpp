@@ -2,11 +2,11 @@
 #include <memory>
 #include <string>
 
+#include "cli/options.hpp"
+#include "cli/terminal.hpp"
 #include "lab/commands.hpp"
-#include "bench/cli/options.hpp"
-#include "bench/cli/terminal.hpp"
-#include "lab/order/order_study.hpp"
 #include "lab/order/order_pictures.hpp"
+#include "lab/order/order_study.hpp"
 
 namespace aims {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "bench/metrics/rank_correlation.hpp"
 #include "bench/metrics/statistics.hpp"
-#include "bench/run/validity.hpp"
+#include "bench/scoring/validity.hpp"
 #include "bench/studies/drawn_groups.hpp"
 #include "bench/studies/paper_study.hpp"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <set>
 
-#include "bench/run/json_text.hpp"
-#include "bench/run/report.hpp"
+#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/report.hpp"
 #include "core/files/csv.hpp"
 #include "lab/order/order_study.hpp"
 

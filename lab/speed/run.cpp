@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/scenario.hpp"
-#include "bench/run/stream.hpp"
+#include "bench/estimate/stream.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "sim/simulation.hpp"
 
 namespace aims {

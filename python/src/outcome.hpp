@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "bench/run/outcome.hpp"
+#include "bench/scoring/outcome.hpp"
 #include "python/src/conversion.hpp"
 
 namespace aims::python {

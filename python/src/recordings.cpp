@@ -7,11 +7,11 @@
 #include <limits>
 #include <optional>
 
-#include "bench/run/estimate.hpp"
-#include "bench/run/estimate_summary.hpp"
-#include "bench/run/scoring_input.hpp"
-#include "bench/run/stream.hpp"
-#include "bench/run/trajectory_summary.hpp"
+#include "bench/estimate/estimate.hpp"
+#include "bench/estimate/estimate_summary.hpp"
+#include "bench/estimate/scoring_input.hpp"
+#include "bench/estimate/stream.hpp"
+#include "bench/scoring/trajectory_summary.hpp"
 #include "core/files/tum.hpp"
 #include "core/files/yaml_config.hpp"
 #include "python/src/measurements.hpp"

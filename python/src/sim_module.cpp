@@ -7,12 +7,11 @@
 #include <memory>
 #include <optional>
 
+#include "bench/estimate/stream.hpp"
 #include "bench/jobs/sequence_cache.hpp"
 #include "bench/jobs/stored_results.hpp"
-#include "bench/run/catalogue.hpp"
 #include "bench/run/evaluate.hpp"
-#include "bench/run/sequence_record.hpp"
-#include "bench/run/stream.hpp"
+#include "bench/scenario/catalogue.hpp"
 #include "core/stopwatch.hpp"
 #include "python/src/measurements.hpp"
 #include "python/src/outcome.hpp"
@@ -142,8 +141,7 @@ class CachedSequence {
   py::object record(const EstimatorOutcome& outcome, double wall_s) const {
     JobResult result;
     result.scores = estimator_json(outcome);
-    result.sequence = sequence_json(*sequence_, outcome.scores);
-    if (!scenario_->drawn.empty()) result.sequence["drawn"] = drawn_json(scenario_->drawn);
+    result.sequence = sequence_json(*sequence_, *scenario_, outcome.scores);
     result.wall_s = wall_s;
     const LabelledResult labelled = {outcome.name, std::move(result)};
     return object_of(record_of(scenario_->name, seed_, {&labelled, 1}).scores);

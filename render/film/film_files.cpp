@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/run/json_text.hpp"
+#include "bench/scoring/json_text.hpp"
 #include "core/file_name.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/output_folder.hpp"

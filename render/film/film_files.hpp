@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/run/evaluate.hpp"
-#include "bench/run/scenario.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "core/error.hpp"
 #include "render/film/film.hpp"
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "bench/estimate/stream.hpp"
 #include "bench/metrics/association.hpp"
-#include "bench/run/start_anchor.hpp"
-#include "bench/run/stream.hpp"
+#include "bench/scoring/start_anchor.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/ply.hpp"
 #include "core/files/tum.hpp"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/progress.hpp"
-#include "bench/run/scenario.hpp"
+#include "bench/estimate/progress.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "core/error.hpp"
 #include "core/trajectory.hpp"
 #include "render/film/map_growth.hpp"

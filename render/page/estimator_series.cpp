@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "bench/run/start_anchor.hpp"
+#include "bench/scoring/start_anchor.hpp"
 #include "render/page/run_series.hpp"
 #include "render/page/series.hpp"
 

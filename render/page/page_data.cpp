@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/run/json_text.hpp"
+#include "bench/scoring/json_text.hpp"
 #include "core/files/atomic_file.hpp"
 
 namespace aims {

@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "bench/run/score_record.hpp"
+#include "bench/scoring/score_record.hpp"
 #include "core/error.hpp"
 
 namespace aims {

@@ -9,10 +9,10 @@
 #include <map>
 #include <utility>
 
+#include "bench/estimate/estimate.hpp"
 #include "bench/jobs/stored_results.hpp"
 #include "bench/metrics/association.hpp"
-#include "bench/run/estimate.hpp"
-#include "bench/run/json_text.hpp"
+#include "bench/scoring/json_text.hpp"
 #include "core/file_name.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/ply.hpp"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "bench/metrics/scores.hpp"
-#include "bench/run/scenario.hpp"
-#include "bench/run/score_record.hpp"
+#include "bench/scenario/scenario.hpp"
+#include "bench/scoring/score_record.hpp"
 #include "core/error.hpp"
 #include "core/files/csv_columns.hpp"
 #include "core/trajectory.hpp"

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "bench/run/json_text.hpp"
-#include "bench/run/start_anchor.hpp"
+#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/start_anchor.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/series_style.hpp"
 #include "render/page/map_cloud.hpp"

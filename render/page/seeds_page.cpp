@@ -9,7 +9,7 @@
 
 #include "bench/jobs/stored_results.hpp"
 #include "bench/run/expectations.hpp"
-#include "bench/run/json_text.hpp"
+#include "bench/scoring/json_text.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "render/page/links.hpp"
 #include "render/page/run_folder.hpp"

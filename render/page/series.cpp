@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/run/json_text.hpp"
+#include "bench/scoring/json_text.hpp"
 #include "core/series_style.hpp"
 
 namespace aims {

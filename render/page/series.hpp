@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/run/score_record.hpp"
+#include "bench/scoring/score_record.hpp"
 #include "core/error.hpp"
 #include "core/files/csv_columns.hpp"
 #include "core/trajectory.hpp"

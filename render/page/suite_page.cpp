@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "bench/jobs/stored_results.hpp"
-#include "bench/run/json_text.hpp"
+#include "bench/scoring/json_text.hpp"
 #include "bench/studies/comparison.hpp"
 #include "bench/studies/paper_study.hpp"
 #include "bench/studies/suite_summary.hpp"

@@ -7,9 +7,9 @@
 #include <cctype>
 #include <vector>
 
-#include "bench/run/json_text.hpp"
-#include "bench/run/score_statistics.hpp"
-#include "bench/run/validity.hpp"
+#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/score_statistics.hpp"
+#include "bench/scoring/validity.hpp"
 #include "render/page/suite_page.hpp"
 
 namespace aims {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "bench/run/score_record.hpp"
+#include "bench/scoring/score_record.hpp"
 
 namespace aims {
 

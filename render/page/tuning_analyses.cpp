@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "bench/run/score_statistics.hpp"
+#include "bench/scoring/score_statistics.hpp"
 #include "bench/tuning/held_out.hpp"
 #include "bench/tuning/sweep_summary.hpp"
 #include "render/page/tuning_analysis.hpp"

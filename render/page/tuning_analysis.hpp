@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "bench/run/score_record.hpp"
+#include "bench/scoring/score_record.hpp"
 #include "bench/tuning/held_out.hpp"
 #include "bench/tuning/objective.hpp"
 #include "render/page/page_data.hpp"

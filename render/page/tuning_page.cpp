@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "bench/run/json_text.hpp"
-#include "bench/run/scenario.hpp"
-#include "bench/run/validity.hpp"
+#include "bench/scenario/scenario.hpp"
+#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/validity.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "bench/tuning/range_key.hpp"
 #include "bench/tuning/sweep_summary.hpp"

@@ -8,8 +8,8 @@
 #include <set>
 #include <utility>
 
-#include "bench/run/json_text.hpp"
-#include "bench/run/seeds.hpp"
+#include "bench/scenario/seeds.hpp"
+#include "bench/scoring/json_text.hpp"
 #include "bench/tuning/sweep_plan.hpp"
 #include "bench/tuning/tune_plan.hpp"
 #include "core/files/atomic_file.hpp"

@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "bench/run/tables.hpp"
+#include "bench/scoring/tables.hpp"
 #include "core/files/tum.hpp"
 #include "render/results/estimator_pictures.hpp"
 #include "render/results/trajectory_pictures.hpp"

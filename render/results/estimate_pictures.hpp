@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
+#include "bench/estimate/estimate.hpp"
 #include "bench/run/draw_observer.hpp"
-#include "bench/run/estimate.hpp"
 #include "core/error.hpp"
 
 namespace aims {

@@ -7,10 +7,10 @@
 #include <functional>
 #include <utility>
 
-#include "bench/run/estimator_files.hpp"
-#include "bench/run/scenario.hpp"
 #include "bench/run/sequence.hpp"
-#include "bench/run/start_anchor.hpp"
+#include "bench/scenario/scenario.hpp"
+#include "bench/scoring/estimator_files.hpp"
+#include "bench/scoring/start_anchor.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/tum.hpp"
 #include "core/files/waypoint_times.hpp"

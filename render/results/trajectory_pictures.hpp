@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "bench/run/draw_observer.hpp"
-#include "bench/run/trajectory_scoring.hpp"
+#include "bench/scoring/trajectory_scoring.hpp"
 #include "core/error.hpp"
 
 namespace aims {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "bench/run/scenario.hpp"
+#include "bench/scenario/scenario.hpp"
 
 namespace aims::testing {
 

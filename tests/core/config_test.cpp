@@ -217,8 +217,8 @@ TEST(Fields, TextOfEveryParameterIsTakenBack) {
     const std::string before = each.text();
     EXPECT_TRUE(each.assign(before)) << each.key;
     EXPECT_EQ(each.text(), before);
-    EXPECT_EQ(each.sequence, each.key == "names" || each.key == "angles" || each.key == "axis" ||
-                                 each.key == "corner");
+    EXPECT_EQ(is_sequence(each), each.key == "names" || each.key == "angles" ||
+                                     each.key == "axis" || each.key == "corner");
   }
   EXPECT_EQ(sample.eta, 0.1 + 0.2);
   EXPECT_EQ(sample.axis.x(), 1.0 / 3.0);

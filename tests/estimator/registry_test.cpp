@@ -97,7 +97,7 @@ TEST(EstimatorConfigs, EveryNumberOfAimsDHasAUnitAndASource) {
   const Fields fields = fields_of(configs);
   for (const Parameter& parameter : fields.parameters()) {
     if (!parameter.key.starts_with("aims_d.") || !parameter.idle.empty()) continue;
-    if (!is_number(parameter) && !parameter.sequence) continue;
+    if (!is_number(parameter) && !is_sequence(parameter)) continue;
     EXPECT_NE(parameter.spec.unit, "") << parameter.key;
     EXPECT_NE(parameter.spec.source, "") << parameter.key;
   }

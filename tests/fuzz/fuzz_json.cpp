@@ -4,7 +4,7 @@
 
 #include "bench/jobs/job_store.hpp"
 #include "bench/jobs/stored_results.hpp"
-#include "bench/run/json_text.hpp"
+#include "bench/scoring/json_text.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "render/page/page_template.hpp"
 #include "render/page/run_page.hpp"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/estimate.hpp"
-#include "bench/run/scenario.hpp"
+#include "bench/estimate/estimate.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "bench/tuning/sweep_plan.hpp"
 #include "bench/tuning/tune_plan.hpp"
 #include "core/files/yaml_config.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/scenario.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "lab/fidelity/imu_statistics.hpp"
 #include "tests/sim/robot/walking.hpp"
 #include "tests/support/temporary_folder.hpp"

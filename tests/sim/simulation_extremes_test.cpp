@@ -41,7 +41,7 @@ SimulationConfig config_for(const std::string& key) {
 
 std::string text_for(const Parameter& parameter, double value) {
   const std::string one = fmt::format("{}", value);
-  if (!parameter.sequence) return one;
+  if (!is_sequence(parameter)) return one;
   return parameter.expected.starts_with("three") ? fmt::format("[{0}, {0}, {0}]", one)
                                                  : fmt::format("[{0}, {0}]", one);
 }

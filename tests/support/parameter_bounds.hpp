@@ -11,8 +11,7 @@ namespace aims::testing {
 
 /// Whether the parameter is a number or a vector of numbers.
 inline bool is_numeric(const Parameter& parameter) {
-  return is_number(parameter) || parameter.expected.starts_with("two numbers") ||
-         parameter.expected.starts_with("three numbers");
+  return is_number(parameter) || parameter.kind == ParameterKind::kVector;
 }
 
 /// Every number is bounded on both sides, so that nothing that is computed from it overflows.

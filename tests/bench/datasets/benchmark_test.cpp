@@ -6,10 +6,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bench/run/dataset_profile.hpp"
+#include "bench/estimate/dataset_profile.hpp"
 #include "core/files/tum.hpp"
-#include "tests/bench/cli/command_line.hpp"
 #include "tests/bench/datasets/data_sets.hpp"
+#include "tests/cli/command_line.hpp"
 
 namespace aims {
 namespace {

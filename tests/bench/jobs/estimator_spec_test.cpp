@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "bench/jobs/job_id.hpp"
-#include "bench/run/scenario.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "core/files/yaml_config.hpp"
 #include "tests/support/estimator_settings.hpp"
 

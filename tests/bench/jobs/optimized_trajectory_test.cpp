@@ -3,8 +3,8 @@
 
 #include "bench/jobs/job_runner.hpp"
 #include "bench/jobs/stored_results.hpp"
-#include "bench/run/estimator_files.hpp"
-#include "bench/run/score_table.hpp"
+#include "bench/scoring/estimator_files.hpp"
+#include "bench/scoring/score_table.hpp"
 #include "core/files/tum.hpp"
 #include "tests/bench/short_walk.hpp"
 #include "tests/support/temporary_folder.hpp"

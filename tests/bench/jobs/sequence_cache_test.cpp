@@ -9,10 +9,10 @@
 #include <chrono>
 #include <fstream>
 
+#include "bench/estimate/stream.hpp"
 #include "bench/run/evaluate.hpp"
-#include "bench/run/score_record.hpp"
 #include "bench/run/sequence_file.hpp"
-#include "bench/run/stream.hpp"
+#include "bench/scoring/score_record.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/tum.hpp"
 #include "sim/simulation.hpp"

@@ -10,9 +10,9 @@
 #include <set>
 #include <string>
 
-#include "bench/run/model_sheets.hpp"
-#include "bench/run/scenario.hpp"
 #include "bench/run/simulated_rings.hpp"
+#include "bench/scenario/model_sheets.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "core/angle.hpp"
 #include "core/lie.hpp"
 #include "sim/sensors/scan_pattern.hpp"

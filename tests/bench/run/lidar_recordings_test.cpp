@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "bench/run/record.hpp"
-#include "bench/run/scenario.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "recordings/inspection/bag_info.hpp"
 #include "recordings/messages/point_layout.hpp"
 #include "recordings/stream/recording_reader.hpp"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/estimate.hpp"
-#include "bench/run/scenario.hpp"
+#include "bench/estimate/estimate.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "core/files/config_dump.hpp"
 #include "core/files/yaml_config.hpp"
 #include "estimator/registry.hpp"
@@ -26,14 +26,14 @@ Scenario full_scenario() {
   scenario.draw.resize(1);
   scenario.simulation.scene.corridor.bends.resize(1);
   for (const Parameter& parameter : fields_of(scenario).parameters()) {
-    if (parameter.expected == "true or false") parameter.assign("true");
+    if (parameter.kind == ParameterKind::kFlag) parameter.assign("true");
   }
   return scenario;
 }
 
 /// The text of one value, or of a vector of it.
 std::string text_for(const Parameter& parameter, const std::string& value) {
-  if (!parameter.sequence) return value;
+  if (!is_sequence(parameter)) return value;
   const bool three = parameter.expected.starts_with("three");
   return three ? fmt::format("[{0}, {0}, {0}]", value) : fmt::format("[{0}, {0}]", value);
 }
@@ -51,7 +51,7 @@ std::string highest(const Parameter& parameter) {
 /// Values that are beyond a range or no numbers at all.
 std::vector<std::string> refused_values(const Parameter& parameter) {
   const Range& range = parameter.spec.range;
-  const bool whole = is_integer(parameter);
+  const bool whole = parameter.kind == ParameterKind::kInteger;
   const double below = whole ? range.min - 1.0 : std::nextafter(range.min, -1e300);
   const double above = whole ? range.max + 1.0 : std::nextafter(range.max, 1e300);
   return {fmt::format("{}", below),
@@ -101,7 +101,7 @@ TEST(ParameterRanges, SmallAndOddValuesAreTakenExactlyWithinTheRange) {
   for (const Parameter& parameter : fields.parameters()) {
     if (!is_numeric(parameter)) continue;
     for (const double value : {0.0, -1.0, 1e-308, 2147483648.0}) {
-      const bool whole = !is_integer(parameter) || std::floor(value) == value;
+      const bool whole = parameter.kind != ParameterKind::kInteger || std::floor(value) == value;
       const bool taken =
           assign(fields, parameter.key, text_for(parameter, fmt::format("{}", value))).has_value();
       EXPECT_EQ(taken, whole && parameter.spec.range.contains(value)) << parameter.key << value;

@@ -11,9 +11,9 @@
 #include <numbers>
 #include <string>
 
-#include "bench/run/model_sheets.hpp"
 #include "bench/run/record.hpp"
-#include "bench/run/scenario.hpp"
+#include "bench/scenario/model_sheets.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "core/leg_kinematics.hpp"
 #include "core/random.hpp"
 #include "recordings/stream/recording_reader.hpp"

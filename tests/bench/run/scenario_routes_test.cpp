@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "bench/run/scenario.hpp"
+#include "bench/scenario/scenario.hpp"
 
 namespace aims {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-#include "bench/run/scenario.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/run/estimate.hpp"
+#include "bench/estimate/estimate.hpp"
 
 #include <gtest/gtest.h>
 #include <malloc.h>
 
 #include <algorithm>
 
+#include "bench/estimate/estimate_summary.hpp"
 #include "bench/jobs/stored_results.hpp"
-#include "bench/run/estimate_summary.hpp"
 #include "bench/run/record.hpp"
-#include "bench/run/trajectory_summary.hpp"
-#include "bench/run/validity.hpp"
+#include "bench/scoring/trajectory_summary.hpp"
+#include "bench/scoring/validity.hpp"
 #include "core/files/atomic_file.hpp"
 #include "recordings/messages/message_types.hpp"
 #include "tests/bench/short_walk.hpp"

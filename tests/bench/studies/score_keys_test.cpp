@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/run/score_keys.hpp"
+#include "bench/scenario/score_keys.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/run/trajectory_scoring.hpp"
+#include "bench/scoring/trajectory_scoring.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "bench/jobs/stored_results.hpp"
-#include "bench/run/trajectory_summary.hpp"
+#include "bench/scoring/trajectory_summary.hpp"
 #include "render/results/trajectory_pictures.hpp"
 #include "tests/support/temporary_folder.hpp"
 

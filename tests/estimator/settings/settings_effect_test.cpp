@@ -118,14 +118,14 @@ std::string times(const std::string& text, double factor, bool whole) {
 /// sequence. Those that the parameter does not allow are refused later.
 std::vector<std::string> other_values(const Parameter& parameter) {
   const std::string text = parameter.text();
-  if (parameter.expected == "true or false") return {text == "true" ? "false" : "true"};
-  if (parameter.expected.starts_with("one of")) return options_of(parameter.expected);
-  if (parameter.expected == "a text") return {"another"};
-  const bool whole = is_integer(parameter);
+  if (parameter.kind == ParameterKind::kFlag) return {text == "true" ? "false" : "true"};
+  if (parameter.kind == ParameterKind::kChoice) return options_of(parameter.expected);
+  if (parameter.kind == ParameterKind::kText) return {"another"};
+  const bool whole = parameter.kind == ParameterKind::kInteger;
   std::vector<std::string> values;
   const auto multiply = [&](std::initializer_list<double> factors) {
     for (const double factor : factors) {
-      if (!parameter.sequence) {
+      if (!is_sequence(parameter)) {
         values.push_back(times(text, factor, whole));
         continue;
       }
@@ -136,7 +136,7 @@ std::vector<std::string> other_values(const Parameter& parameter) {
   };
   multiply({0.01, 100.0});
   for (const double bound : {parameter.spec.range.min, parameter.spec.range.max}) {
-    if (!parameter.sequence && std::isfinite(bound)) values.push_back(times("1", bound, whole));
+    if (!is_sequence(parameter) && std::isfinite(bound)) values.push_back(times("1", bound, whole));
   }
   multiply({0.1, 10.0, 0.5, 2.0});
   return values;

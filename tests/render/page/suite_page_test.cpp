@@ -11,7 +11,7 @@
 
 #include "bench/jobs/job.hpp"
 #include "bench/jobs/stored_results.hpp"
-#include "bench/run/json_text.hpp"
+#include "bench/scoring/json_text.hpp"
 #include "bench/studies/comparison.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "core/files/csv.hpp"

@@ -5,10 +5,10 @@
 #include <iterator>
 #include <sstream>
 
-#include "bench/run/scenario.hpp"
-#include "bench/run/score_record.hpp"
-#include "bench/run/shown_scans.hpp"
-#include "bench/run/tables.hpp"
+#include "bench/estimate/shown_scans.hpp"
+#include "bench/scenario/scenario.hpp"
+#include "bench/scoring/score_record.hpp"
+#include "bench/scoring/tables.hpp"
 #include "core/files/csv.hpp"
 #include "core/files/ply.hpp"
 #include "core/files/tum.hpp"

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/estimate/estimate.hpp"
+#include "core/config.hpp"
+#include "core/error.hpp"
+
+namespace aims {
+
+/// What the authors of a data set, or of a system, report of one sequence.
+struct PublishedScore {
+  std::string system;
+  std::string sequence;
+  double value = 0.0;  ///< in the unit of the profile's score
+};
+
+/// Where the truth of a sequence is, and how estimates meet it.
+struct DatasetTruth {
+  /// Files below the folder of the data set or of the sequence, with {sequence} and *; the first
+  /// that is there counts.
+  std::vector<std::string> files;
+  std::string topic;           ///< of the recording, where no file is found; "/tf:PARENT,CHILD"
+  std::string extrinsic;       ///< as --extrinsic of aims score
+  std::string lever_arm;       ///< as --lever-arm
+  std::string end_pose;        ///< as --end-pose; with `files` of those sequences that have none
+  double time_offset_s = 0.0;  ///< added to the stamps of the estimates [s]
+};
+
+/// A public data set: how it is read, scored as its authors score it, and what they report.
+struct DatasetProfile {
+  std::string name;  ///< of the file
+  std::string title, citation, url, licence;
+  std::string tested;   ///< "generated data" or "the original"
+  EstimateConfig read;  ///< topics, calibration, scoring, who runs
+  DatasetTruth truth;
+  std::string score = "ate_se3_m";  ///< dotted key of scores.json that the authors report
+  std::string unit = "m";
+  std::string score_text;        ///< how the authors compute it
+  std::string published_source;  ///< of all that follow; empty: none was read in a source
+  std::vector<PublishedScore> published;
+};
+
+void describe(Fields& fields, DatasetProfile& profile);
+
+/// Reads a profile with settings "key=value" on top. Errors as of `load_estimate_config`.
+Result<DatasetProfile> load_dataset_profile(const std::filesystem::path& file,
+                                            std::span<const std::string> overrides);
+
+/// The profiles in a folder, sorted.
+std::vector<std::filesystem::path> dataset_profiles(const std::filesystem::path& folder);
+
+/// A file, or NAME.yaml in the folder. Error: the names there, and the nearest.
+Result<std::filesystem::path> find_dataset_profile(const std::string& given,
+                                                   const std::filesystem::path& folder);
+
+}  // namespace aims

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/estimate/python_classes.hpp"
+
+#include "core/files/yaml_config.hpp"
+#include "estimator/estimator_spec.hpp"
+
+namespace aims {
+
+Result<RunChoice> choose_run(const std::filesystem::path& file,
+                             std::span<const std::string> overrides,
+                             const std::filesystem::path& folder,
+                             const std::vector<std::string>& standard, EstimatorConfigs& configs) {
+  const auto read = [&](std::span<const std::string> settings) {
+    auto texts = read_texts(file, settings, "run", folder);
+    return texts && *texts ? std::move(**texts) : standard;
+  };
+  RunChoice choice{read({}), read(overrides)};
+  if (auto added = add_python_estimators(choice.all, configs); !added) {
+    return failure("run: " + added.error().message);
+  }
+  // Of one that does not run, the file may hold settings; without the class they are unknown keys.
+  static_cast<void>(add_python_estimators(choice.of_file, configs));
+  return choice;
+}
+
+}  // namespace aims

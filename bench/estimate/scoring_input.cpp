@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/estimate/scoring_input.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "bench/estimate/bag_origin.hpp"
+#include "bench/metrics/lever_arm.hpp"
+#include "bench/scoring/segment_list.hpp"
+#include "core/file_name.hpp"
+#include "core/files/atomic_file.hpp"
+#include "core/files/kitti.hpp"
+#include "core/files/number_lines.hpp"
+#include "core/files/waypoint_times.hpp"
+#include "recordings/median.hpp"
+#include "recordings/topics/recording_topics.hpp"
+#include "recordings/trajectories/trajectory_file.hpp"
+
+namespace aims {
+namespace {
+
+/// The numbers of a text of nothing else; empty otherwise.
+std::vector<double> numbers_of(const std::string& text) {
+  std::vector<double> numbers;
+  for (const std::string_view word : words_of(text)) {
+    const auto number = parse_number(word);
+    if (!number) return {};
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+/// Of "x y z qx qy qz qw", or of "x y z" where `may_be_position`.
+Result<Pose> pose_of(std::string_view option, const std::string& text, bool may_be_position) {
+  const std::vector<double> v = numbers_of(text);
+  if (may_be_position && v.size() == 3) return Pose{{1.0, 0.0, 0.0, 0.0}, {v[0], v[1], v[2]}};
+  const bool seven = v.size() == 7;
+  const Eigen::Quaterniond rotation =
+      seven ? Eigen::Quaterniond(v[6], v[3], v[4], v[5]) : Eigen::Quaterniond(0.0, 0.0, 0.0, 0.0);
+  if (!(std::abs(rotation.norm() - 1.0) < 1e-3)) {
+    return failure(
+        fmt::format("{} '{}': expected 'x y z qx qy qz qw' in metres with a "
+                    "unit quaternion{}",
+                    option, text, may_be_position ? ", or 'x y z'" : ""));
+  }
+  return Pose{rotation.normalized(), {v[0], v[1], v[2]}};
+}
+
+Result<Pose> extrinsic_of(const std::string& text) {
+  if (text.empty()) return Pose();
+  return pose_of("--extrinsic", text, false);
+}
+
+/// "run/odom" of run.bag:/odom, "aims" of out/aims.tum.
+std::string name_of(const TrajectoryFile& file) { return file.file.stem().string() + file.topic; }
+
+/// Reads a trajectory of the request, unless it is in memory.
+Result<TrajectoryFile> trajectory_of(const ScoringRequest& request, const std::string& source,
+                                     const TrajectoryFileOptions& options) {
+  const auto known = request.in_memory.find(source);
+  if (known == request.in_memory.end()) return read_trajectory(source, options);
+  TrajectoryFile file;
+  file.trajectory = known->second;
+  file.kind = "in memory";
+  file.file = source;
+  return file;
+}
+
+/// Fills in the truth; yields the bag that it is from, or an empty path.
+Result<std::filesystem::path> read_truth(const ScoringRequest& request,
+                                         const std::vector<StampList>& stamps,
+                                         ScoringInput& input) {
+  auto file = trajectory_of(request, request.truth,
+                            {PoseRules::kStrict, std::string(kTruthImuTopic), stamps});
+  if (!file) return tl::unexpected(file.error());
+  input.notes.insert(input.notes.end(), file->notes.begin(), file->notes.end());
+  input.truth = {name_of(*file),   request.truth,     file->kind, std::move(file->trajectory),
+                 file->body_frame, file->has_attitude};
+  return file->topic.empty() ? std::filesystem::path() : file->file;
+}
+
+/// Names made different: a repeated one is numbered.
+std::string unique_name(const std::string& name, const std::vector<SourcedTrajectory>& others) {
+  std::set<std::string> taken;
+  for (const SourcedTrajectory& each : others) taken.insert(each.name);
+  std::string unique = name;
+  for (int i = 2; taken.contains(unique); ++i) unique = fmt::format("{}#{}", name, i);
+  return unique;
+}
+
+void note_body(const SourcedTrajectory& truth, const SourcedTrajectory& estimate,
+               std::vector<std::string>& notes) {
+  const std::string& body = estimate.body_frame;
+  if (truth.body_frame.empty() || body.empty() || truth.body_frame == body) return;
+  notes.push_back(
+      fmt::format("{}: poses of '{}', while the truth's are of '{}'; --extrinsic takes "
+                  "one to the other",
+                  estimate.name, body, truth.body_frame));
+}
+
+tl::unexpected<Error> refuse_offset(const ScoringRequest& request) {
+  return failure(fmt::format("--time-offset {}: moves stamps beyond what 64 bits of ns can hold",
+                             request.time_offset_s));
+}
+
+Result<void> read_estimates(const ScoringRequest& request, std::vector<StampList> stamps,
+                            ScoringInput& input) {
+  const auto extrinsic = extrinsic_of(request.extrinsic);
+  if (!extrinsic) return tl::unexpected(extrinsic.error());
+  const Pose T_estimate_body = extrinsic->inverse();
+  const Duration offset = from_seconds(request.time_offset_s);
+  stamps.push_back({"the truth", {}});
+  for (const StampedPose& each : input.truth.trajectory) {
+    Time stamp = 0;
+    if (__builtin_sub_overflow(each.stamp, offset, &stamp)) return refuse_offset(request);
+    stamps.back().stamps.push_back(stamp);
+  }
+  for (std::size_t i = 0; i < request.estimates.size(); ++i) {
+    const std::string& source = request.estimates[i];
+    auto file = trajectory_of(request, source, {PoseRules::kAsGiven, "", stamps});
+    if (!file) return tl::unexpected(file.error());
+    input.notes.insert(input.notes.end(), file->notes.begin(), file->notes.end());
+    const bool moved = !request.extrinsic.empty();
+    for (StampedPose& each : file->trajectory) {
+      if (__builtin_add_overflow(each.stamp, offset, &each.stamp)) return refuse_offset(request);
+      if (moved) each.pose = each.pose * T_estimate_body;
+    }
+    const std::string name = request.names.empty() ? name_of(*file) : request.names[i];
+    input.estimates.push_back({unique_name(name, input.estimates), source, file->kind,
+                               std::move(file->trajectory), file->body_frame});
+    if (!moved) note_body(input.truth, input.estimates.back(), input.notes);
+  }
+  return {};
+}
+
+/// The file of waypoint times with the segments that its run states, or what the truth's bag holds
+/// of its origin.
+Result<BagOrigin> origin_of(const ScoringRequest& request, const std::filesystem::path& bag,
+                            std::vector<std::string>& notes) {
+  if (request.waypoint_times.empty()) return bag.empty() ? BagOrigin{} : bag_origin(bag);
+  const auto text = read_file(request.waypoint_times);
+  if (!text) return tl::unexpected(text.error());
+  auto waypoint_times = parse_waypoint_times(*text, request.waypoint_times.string());
+  if (!waypoint_times) return tl::unexpected(waypoint_times.error());
+  const bool asked = !request.segments.empty() || request.is_configured;
+  const StatedSegments stated = asked ? StatedSegments() : segments_beside(request.waypoint_times);
+  if (!stated.names.empty()) {
+    notes.push_back(fmt::format("segments {}: as {} states", fmt::join(stated.names, ", "),
+                                stated.source.string()));
+  }
+  return BagOrigin{std::move(*waypoint_times), stated.names};
+}
+
+Result<std::vector<Segment>> segments_of_request(const ScoringRequest& request,
+                                                 const ScoringInput& input) {
+  if (request.segments.empty())
+    return segments_wanted(input.waypoint_times, input.scoring.segments);
+  const auto list = parse_segments(request.segments);
+  if (!list) return tl::unexpected(list.error());
+  return resolve_segments(*list, input.waypoint_times, input.truth.trajectory);
+}
+
+Result<void> read_segments(const ScoringRequest& request, const std::filesystem::path& bag,
+                           ScoringInput& input) {
+  auto origin = origin_of(request, bag, input.notes);
+  if (!origin) return tl::unexpected(origin.error());
+  input.waypoint_times = std::move(origin->waypoint_times);
+  if (input.scoring.segments.empty()) input.scoring.segments = std::move(origin->segments);
+  auto segments = segments_of_request(request, input);
+  if (!segments) return tl::unexpected(segments.error());
+  input.segments = std::move(*segments);
+  return {};
+}
+
+/// A truth of the start and the end of all estimates alone.
+Result<void> set_markers(const ScoringRequest& request, ScoringInput& input) {
+  const auto end_pose = pose_of("--end-pose", request.end_pose, true);
+  if (!end_pose) return tl::unexpected(end_pose.error());
+  std::optional<Time> begin, end;
+  for (const SourcedTrajectory& each : input.estimates) {
+    const Trajectory valid = valid_part(each.trajectory);
+    if (valid.size() < 2) continue;
+    begin = std::max(valid.front().stamp, begin.value_or(valid.front().stamp));
+    end = std::min(valid.back().stamp, end.value_or(valid.back().stamp));
+  }
+  if (!begin || *begin >= *end) {
+    return failure("--end-pose: expected estimates of two poses or more over the same time");
+  }
+  input.truth = {"markers",
+                 "--end-pose",
+                 "pose of the end in the frame of the start",
+                 {{*begin, Pose()}, {*end, *end_pose}}};
+  input.truth.has_attitude = numbers_of(request.end_pose).size() == 7;
+  input.scoring.association = Association::kAtTruth;
+  input.scoring.anchor = AlignmentKind::kStartPose;
+  return {};
+}
+
+/// Whether all attitudes of the truth are the same while an estimate turns by more than 0.2 rad, as
+/// where a total station's positions are written as poses.
+bool is_constant_attitude(const ScoringInput& input) {
+  constexpr std::size_t kFewest = 10;
+  constexpr double kTurn = 0.2;
+  const Trajectory& truth = input.truth.trajectory;
+  if (truth.size() < kFewest) return false;
+  const auto differs = [](const Eigen::Quaterniond& first, double angle) {
+    return [first, angle](const StampedPose& each) {
+      return each.pose.rotation.angularDistance(first) > angle;
+    };
+  };
+  if (std::ranges::any_of(truth, differs(truth.front().pose.rotation, 1e-9))) return false;
+  return std::ranges::any_of(input.estimates, [&](const SourcedTrajectory& each) {
+    const Trajectory valid = valid_part(each.trajectory);
+    return !valid.empty() &&
+           std::ranges::any_of(valid, differs(valid.front().pose.rotation, kTurn));
+  });
+}
+
+/// Decides what the truth measures, where the configuration leaves it open.
+void resolve_truth(const ScoringRequest& request, ScoringInput& input) {
+  TruthContent& content = input.scoring.truth;
+  const bool open = content == TruthContent::kAuto;
+  if (!input.truth.has_attitude || !request.lever_arm.empty()) content = TruthContent::kPosition;
+  if (open && content != TruthContent::kPosition && is_constant_attitude(input)) {
+    content = TruthContent::kPosition;
+    input.notes.emplace_back("truth: its attitude never changes while the estimates turn");
+  }
+  if (content == TruthContent::kAuto) content = TruthContent::kPose;
+  if (content == TruthContent::kPosition) {
+    input.notes.emplace_back(
+        "truth: of positions alone: aligned by the path, and there are no scores of attitude");
+  }
+  const Trajectory& truth = input.truth.trajectory;
+  if (truth.size() < 3 || input.scoring.association != Association::kInterpolated) return;
+  std::vector<Duration> steps;
+  for (std::size_t i = 1; i < truth.size(); ++i) {
+    steps.push_back(truth[i].stamp - truth[i - 1].stamp);
+  }
+  const Duration middle = *upper_median(std::move(steps));
+  if (middle <= from_seconds(input.scoring.max_truth_gap)) return;
+  input.scoring.association = Association::kAtTruth;
+  input.notes.push_back(fmt::format(
+      "truth: {} control points, {:.1f} s apart: the estimates are compared at their stamps",
+      truth.size(), to_seconds(middle)));
+}
+
+/// Moves the estimates to the point that the truth measures.
+Result<void> apply_lever_arm(const ScoringRequest& request, ScoringInput& input) {
+  if (request.lever_arm.empty()) return {};
+  const bool fitted = request.lever_arm == "estimate";
+  const std::vector<double> v = numbers_of(request.lever_arm);
+  if (!fitted && v.size() != 3) {
+    return failure(fmt::format("--lever-arm '{}': expected 'x y z' in metres, or estimate",
+                               request.lever_arm));
+  }
+  const bool level = input.scoring.anchor == AlignmentKind::kStartHeading;
+  for (SourcedTrajectory& each : input.estimates) {
+    LeverArm lever;
+    if (fitted) {
+      const Trajectory valid = valid_part(each.trajectory);
+      lever = fit_lever_arm(compared_pairs(valid, input.truth.trajectory, input.scoring), level);
+      const Eigen::Vector3d& p = lever.p_body_point;
+      input.notes.push_back(fmt::format(
+          "{}: lever arm fitted: [{:.3f}, {:.3f}, {:.3f}] m, {} of 3 directions observed; what it "
+          "fits is no error any more",
+          each.name, p.x(), p.y(), p.z(), lever.observed));
+    } else {
+      lever.p_body_point = {v[0], v[1], v[2]};
+    }
+    each.trajectory = moved_to_point(std::move(each.trajectory), lever.p_body_point);
+  }
+  return {};
+}
+
+/// KITTI's own poses are of a camera, whose y axis points down.
+void note_axes(ScoringInput& input) {
+  const auto is_kitti = [](const SourcedTrajectory& each) { return each.kind == "KITTI poses"; };
+  const bool any = is_kitti(input.truth) ||
+                   std::any_of(input.estimates.begin(), input.estimates.end(), is_kitti);
+  if (!any || input.scoring.anchor == AlignmentKind::kStartPose) return;
+  input.notes.emplace_back(
+      "KITTI poses are taken with z up; for a camera's axes (y down) give "
+      "--set scoring.anchor=pose");
+}
+
+Result<std::vector<StampList>> stamps_of(const std::filesystem::path& times) {
+  if (times.empty()) return std::vector<StampList>();
+  const auto text = read_file(times);
+  if (!text) return tl::unexpected(text.error());
+  auto stamps = parse_times(*text, times.string());
+  if (!stamps) return tl::unexpected(stamps.error());
+  return std::vector<StampList>{{times.string(), std::move(*stamps)}};
+}
+
+}  // namespace
+
+Result<ScoringInput> read_scoring_input(const ScoringRequest& request) {
+  if (!request.names.empty() && request.names.size() != request.estimates.size()) {
+    return failure(fmt::format("--name: expected one for each of {} estimates, found {}",
+                               request.estimates.size(), request.names.size()));
+  }
+  for (const std::string& name : request.names) {
+    if (auto right = check_file_name("--name", name); !right) return tl::unexpected(right.error());
+  }
+  ScoringInput input;
+  input.scoring = request.scoring;
+  const auto stamps = stamps_of(request.times);
+  if (!stamps) return tl::unexpected(stamps.error());
+  if (request.truth.empty() == request.end_pose.empty()) {
+    return failure("expected --truth or --end-pose, and not both");
+  }
+  if (!request.truth.empty()) {
+    const auto bag = read_truth(request, *stamps, input);
+    if (!bag) return tl::unexpected(bag.error());
+    if (auto read = read_segments(request, *bag, input); !read) {
+      return tl::unexpected(read.error());
+    }
+  }
+  auto done = read_estimates(request, *stamps, input);
+  if (done && !request.end_pose.empty()) done = set_markers(request, input);
+  if (!done) return tl::unexpected(done.error());
+  resolve_truth(request, input);
+  if (done = apply_lever_arm(request, input); !done) return tl::unexpected(done.error());
+  note_axes(input);
+  return input;
+}
+
+}  // namespace aims

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/scoring/estimator_files.hpp"
+
+#include <utility>
+
+#include "bench/scoring/health_summary.hpp"
+#include "bench/scoring/tables.hpp"
+#include "core/files/ply.hpp"
+#include "core/files/tum.hpp"
+
+namespace aims {
+
+namespace fs = std::filesystem;
+
+RowWriter::RowWriter(AtomicFile poses, AtomicFile scans, AtomicFile health)
+    : poses_(std::move(poses)),
+      scans_(std::move(scans)),
+      health_(std::move(health)),
+      health_table_(health_table({})) {}
+
+Result<RowWriter> RowWriter::create(const fs::path& folder, const std::string& name) {
+  auto poses = AtomicFile::create(folder / (name + ".tum"));
+  if (!poses) return tl::unexpected(poses.error());
+  auto scans = AtomicFile::create(folder / (name + ".diagnostics.csv"));
+  if (!scans) return tl::unexpected(scans.error());
+  auto health = AtomicFile::create(folder / (name + ".health.csv"));
+  if (!health) return tl::unexpected(health.error());
+  return RowWriter(std::move(*poses), std::move(*scans), std::move(*health));
+}
+
+Result<void> RowWriter::add(const EstimatorRows& rows) {
+  if (scan_table_) {
+    add_scans(rows, *scan_table_);
+  } else {
+    scan_table_ = diagnostics_table(rows);
+  }
+  add_health_rows(rows.health, health_table_);
+  auto written = poses_.write(tum_text(rows.poses));
+  if (written) written = scans_.write(scan_table_->take_text());
+  if (written) written = health_.write(health_table_.take_text());
+  return written;
+}
+
+Result<void> RowWriter::commit() {
+  auto done = poses_.commit();
+  if (done) done = scans_.commit();
+  if (done) done = health_.commit();
+  return done;
+}
+
+Result<void> write_estimator(const EstimatorOutcome& outcome, const fs::path& folder,
+                             const std::string& name) {
+  auto writer = RowWriter::create(folder, name);
+  if (!writer) return tl::unexpected(writer.error());
+  auto written = writer->add(rows_of(outcome));
+  if (written) written = writer->commit();
+  return written ? write_map_and_optimized(outcome, folder, name) : written;
+}
+
+Result<void> write_map_and_optimized(const EstimatorOutcome& outcome, const fs::path& folder,
+                                     const std::string& name) {
+  Result<void> written;
+  if (outcome.result.optimized) {
+    written = write_tum(folder / (name + kOptimizedEnding), *outcome.result.optimized);
+  }
+  if (written && !outcome.map.empty()) {
+    written = write_ply(folder / (name + ".map.ply"), outcome.map);
+  }
+  return written;
+}
+
+Result<EstimatorOutcome> read_estimator(const fs::path& folder, const std::string& name,
+                                        const EstimatorParts& parts) {
+  EstimatorOutcome outcome;
+  outcome.name = name;
+  auto trajectory = read_tum(folder / (name + ".tum"), PoseRules::kAsGiven);
+  if (!trajectory) return tl::unexpected(trajectory.error());
+  outcome.result.trajectory = std::move(*trajectory);
+  if (const fs::path file = folder / (name + kOptimizedEnding); fs::exists(file)) {
+    auto optimized = read_tum(file, PoseRules::kAsGiven);
+    if (!optimized) return tl::unexpected(optimized.error());
+    outcome.result.optimized = std::move(*optimized);
+  }
+  if (parts.diagnostics) {
+    auto diagnostics = read_diagnostics(folder / (name + ".diagnostics.csv"));
+    if (!diagnostics) return tl::unexpected(diagnostics.error());
+    outcome.result.diagnostics = std::move(*diagnostics);
+  }
+  const fs::path map = folder / (name + ".map.ply");
+  if (!parts.map || !fs::exists(map)) return outcome;
+  auto points = read_ply(map);
+  if (!points) return tl::unexpected(points.error());
+  outcome.map = std::move(*points);
+  return outcome;
+}
+
+}  // namespace aims

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "bench/scoring/outcome.hpp"
+#include "core/error.hpp"
+#include "core/files/atomic_file.hpp"
+#include "core/files/csv.hpp"
+
+namespace aims {
+
+/// Ending of the file of a re-optimized trajectory.
+inline constexpr const char* kOptimizedEnding = ".optimized.tum";
+
+/// Writes the rows of one estimator in parts: NAME.tum, NAME.diagnostics.csv and
+/// NAME.health.csv, which appear on commit() and until then grow beside themselves as .tmp files.
+class RowWriter {
+ public:
+  static Result<RowWriter> create(const std::filesystem::path& folder, const std::string& name);
+  /// Writes the rows that follow those before.
+  Result<void> add(const EstimatorRows& rows);
+  Result<void> commit();
+
+ private:
+  RowWriter(AtomicFile poses, AtomicFile scans, AtomicFile health);
+
+  AtomicFile poses_;
+  AtomicFile scans_;
+  AtomicFile health_;
+  std::optional<CsvTable> scan_table_;  ///< from the first rows on
+  CsvTable health_table_;
+};
+
+/// Writes what one estimator came to: NAME.tum, where it has them the re-optimized trajectory
+/// (NAME.optimized.tum) and its map (NAME.map.ply), NAME.diagnostics.csv and NAME.health.csv.
+Result<void> write_estimator(const EstimatorOutcome& outcome, const std::filesystem::path& folder,
+                             const std::string& name);
+
+/// Writes of these what is no row: the re-optimized trajectory and the map.
+Result<void> write_map_and_optimized(const EstimatorOutcome& outcome,
+                                     const std::filesystem::path& folder, const std::string& name);
+
+/// Of those files, what is read besides the trajectories.
+struct EstimatorParts {
+  bool diagnostics = true;
+  bool map = true;
+};
+
+/// Reads those files but for the health; the outcome has no scores.
+Result<EstimatorOutcome> read_estimator(const std::filesystem::path& folder,
+                                        const std::string& name, const EstimatorParts& parts = {});
+
+/// Endings of those files, with their dots.
+inline constexpr const char* kEstimatorFiles[] = {".tum", kOptimizedEnding, ".map.ply",
+                                                  ".diagnostics.csv", ".health.csv"};
+
+}  // namespace aims

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/scoring/health_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "bench/scoring/json_text.hpp"
+
+namespace aims {
+namespace {
+
+/// The reasons that lasted longest, at most three.
+std::string reasons_text(const HealthSummary& summary) {
+  std::vector<std::pair<double, std::string>> longest;
+  for (const auto& [reason, seconds] : summary.reasons) longest.emplace_back(seconds, reason);
+  std::ranges::sort(longest, std::greater<>());
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, longest.size()); ++i) {
+    texts.push_back(fmt::format("{} {:.1f} s", longest[i].second, longest[i].first));
+  }
+  if (longest.size() > texts.size()) texts.emplace_back("...");
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+constexpr const char* kNotJudged = "not judged";
+
+}  // namespace
+
+Json health_json(const HealthSummary& summary) {
+  return {{"worst", summary.judged ? std::string(name_of(summary.worst)) : kNotJudged},
+          {"healthy_s", summary.healthy_s},
+          {"degraded_s", summary.degraded_s},
+          {"invalid_s", summary.invalid_s},
+          {"reasons", reasons_text(summary)}};
+}
+
+std::string text_of(const HealthSummary& summary) {
+  if (!summary.judged || summary.worst == HealthState::kHealthy) return {};
+  if (summary.worst == HealthState::kStarting) return "never started";
+  std::vector<std::string> states;
+  if (summary.invalid_s > 0.0 || summary.worst == HealthState::kInvalid) {
+    states.push_back(fmt::format("INVALID for {:.1f} s", summary.invalid_s));
+  }
+  if (summary.degraded_s > 0.0) {
+    states.push_back(fmt::format("degraded for {:.1f} s", summary.degraded_s));
+  }
+  return fmt::format("{} ({})", fmt::join(states, ", "), reasons_text(summary));
+}
+
+std::vector<std::string> health_lines(const RunRecord& run) {
+  std::vector<std::string> lines;
+  const auto estimators = run.scores.find("estimators");
+  if (estimators == run.scores.end()) return lines;
+  for (const auto& [name, scores] : estimators->items()) {
+    const auto health = scores.find("health");
+    if (health == scores.end()) continue;
+    const std::string worst = value_in(*health, "worst", "");
+    if (worst == name_of(HealthState::kHealthy) || worst == kNotJudged) continue;
+    lines.push_back(fmt::format("{} seed {}: {} ({})", name, run.seed, worst,
+                                value_in(*health, "reasons", "")));
+  }
+  return lines;
+}
+
+CsvTable health_table(std::span<const HealthRow> rows) {
+  CsvTable table({"stamp_s", "state", "reasons", "position_sigma_m"});
+  add_health_rows(rows, table);
+  return table;
+}
+
+void add_health_rows(std::span<const HealthRow> rows, CsvTable& table) {
+  for (const HealthRow& row : rows) {
+    table.add(to_seconds(row.stamp)).add(name_of(row.state));
+    table.add(fmt::format("{}", fmt::join(row.reasons, "; "))).add(row.position_sigma);
+    table.end_row();
+  }
+}
+
+}  // namespace aims

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/scoring/health_time.hpp"
+
+#include <algorithm>
+
+namespace aims {
+namespace {
+
+/// Time [s] of the summary in that state.
+double& time_in(HealthState state, HealthSummary& summary) {
+  if (state == HealthState::kInvalid) return summary.invalid_s;
+  return state == HealthState::kDegraded ? summary.degraded_s : summary.healthy_s;
+}
+
+}  // namespace
+
+void add_health(const HealthRow& row, HealthSummary& summary) {
+  const HealthRow& before = summary.last;
+  if (summary.judged && before.state != HealthState::kStarting) {
+    const double seconds = to_seconds(row.stamp - before.stamp);
+    time_in(before.state, summary) += seconds;
+    for (const std::string& reason : before.reasons) summary.reasons[reason] += seconds;
+  }
+  summary.judged = true;
+  summary.worst = std::max(summary.worst, row.state);
+  summary.last = row;
+}
+
+HealthSummary health_summary(const std::vector<HealthRow>& rows) {
+  HealthSummary summary;
+  for (const HealthRow& row : rows) add_health(row, summary);
+  return summary;
+}
+
+}  // namespace aims

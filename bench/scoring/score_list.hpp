@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "bench/metrics/scores.hpp"
+#include "bench/scoring/json_text.hpp"
+
+namespace aims {
+
+enum class Better { kSmaller, kLarger, kNeither };
+
+/// One score of an estimate: the only place that knows its key, how it is shown and its value.
+struct Score {
+  /// Of scores.json, scores.csv, `expect:` and objectives. A score of several numbers is an object
+  /// there, whose numbers have keys below this one: "m_list_percent.a-b".
+  const char* key;
+  std::string_view title;  ///< of columns; empty: never one
+  std::string_view unit;
+  int digits = 3;  ///< behind the point
+  Better better = Better::kSmaller;
+  double floor = 0.0;  ///< of a headline score: a change below this [unit] is of no interest
+  /// Its number, text or object; null when undefined. None for what scores of a trajectory lack:
+  /// what depends on the run.
+  Json (*value)(const Scores& scores) = nullptr;
+  bool (*present)(const Scores& scores) = nullptr;  ///< whether it has the key; none: always
+};
+
+/// All scores, in the order of scores.json.
+std::span<const Score> score_list();
+
+/// The score of that key, or of the longest one above it; `key` is dotted and one of the list.
+const Score& score_at(std::string_view key);
+
+/// "ATE yaw [m]".
+std::string title_with_unit(const Score& score);
+
+/// What many runs are summed up by: the headline, ATE after alignment by heading and translation;
+/// the ATE aligned at the start; the heading error; M_list over all segments; M_end; the largest
+/// height error. Keys are those of numbers ("m_list_percent.all").
+inline constexpr std::size_t kHeadlineCount = 6;
+const std::array<Score, kHeadlineCount>& headline_scores();
+
+/// Limits of the position error within which an estimate stayed.
+inline constexpr std::size_t kSuccessCount = 2;
+const std::array<Score, kSuccessCount>& success_scores();
+
+/// True for scores that depend on the machine and the moment.
+bool is_timing(std::string_view score_key);
+
+/// What scores.json holds of any estimate: the values of the list.
+Json scores_json(const Scores& scores);
+
+/// The number, or null for none and for what is not finite.
+Json json_of(const std::optional<double>& value);
+
+/// That of a member of a part that may be missing.
+template <class Part, class Member>
+Json json_of(const std::optional<Part>& part, Member Part::*member) {
+  return part ? json_of(std::optional<double>((*part).*member)) : Json();
+}
+
+}  // namespace aims

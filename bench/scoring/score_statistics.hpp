@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "bench/metrics/bootstrap.hpp"
+#include "bench/metrics/proportion.hpp"
+#include "bench/scoring/score_record.hpp"
+
+namespace aims {
+
+/// One score of one estimator over runs of the same scenario. As everywhere below, invalid runs
+/// (bench/scoring/validity.hpp) are left out.
+struct ScoreStatistics {
+  std::optional<double> median;  ///< over the runs that have a value
+  std::optional<double> worst;   ///< largest
+  std::size_t count = 0;         ///< runs that have a value
+};
+
+ScoreStatistics statistics_of(std::span<const RunRecord> runs, const std::string& estimator,
+                              const std::string& key);
+
+/// 95 % bootstrap interval of the median of a score over the runs that have it; coarse below about
+/// ten runs.
+Interval median_interval(std::span<const RunRecord> runs, const std::string& estimator,
+                         const std::string& key);
+
+/// Runs in which the estimator finished, and those in which it was a success; by the key
+/// `kStrictSuccessKey` within 1 %, with `kOptimizedPrefix` before it its re-optimized trajectory.
+std::size_t finished(std::span<const RunRecord> runs, const std::string& estimator);
+std::size_t successes(std::span<const RunRecord> runs, const std::string& estimator,
+                      const std::string& key = kSuccessKey);
+
+/// Successes of so many runs.
+struct SuccessRate {
+  std::size_t count = 0;
+  std::size_t runs = 0;
+
+  Interval interval() const { return wilson_interval(count, runs); }
+  /// "18/20 (70-97 %)": count, runs and 95 % Wilson interval; "-" without runs.
+  std::string text() const;
+};
+
+/// Over the valid runs that have the key: older results have none of 1 %.
+SuccessRate success_rate(std::span<const RunRecord> runs, const std::string& estimator,
+                         const std::string& key = kSuccessKey);
+
+/// Whether the estimator has a success by that key in that run; none when it has no such key, or
+/// when the run is invalid.
+std::optional<bool> succeeds(const RunRecord& run, const std::string& estimator,
+                             const std::string& key = kSuccessKey);
+
+/// Values of one score in pairs of runs on the same seed.
+struct ScorePairs {
+  std::vector<double> reference;
+  std::vector<double> value;
+
+  std::vector<double> differences() const;  ///< value - reference
+};
+
+/// One estimator in some runs.
+struct EstimatorRuns {
+  std::span<const RunRecord> runs;
+  std::string estimator;
+};
+
+ScorePairs paired(const EstimatorRuns& reference, const EstimatorRuns& other,
+                  const std::string& key);
+
+/// McNemar's test of the successes of two on the same seeds.
+McNemarTest success_test(const EstimatorRuns& first, const EstimatorRuns& second,
+                         const std::string& key = kSuccessKey);
+
+/// What pairs of runs say about a change of a score.
+struct PairedStatistics {
+  std::size_t count = 0;                   ///< pairs
+  std::optional<double> reference_median;  ///< none without pairs, like the next ones
+  std::optional<double> median;
+  std::optional<double> worst;  ///< largest
+  std::optional<double> ratio;  ///< of the medians; none unless the reference's is positive
+  double change = 0.0;          ///< mean of the differences
+  Interval interval;            ///< of the change: 95 %, bootstrap over pairs
+};
+
+PairedStatistics statistics_of(const ScorePairs& pairs);
+
+/// 95 % bootstrap interval of the mean.
+Interval mean_interval(const std::vector<double>& values);
+
+}  // namespace aims

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/scoring/score_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/score_statistics.hpp"
+#include "bench/scoring/validity.hpp"
+
+namespace aims {
+namespace {
+
+constexpr const char* kSe3Key = "ate_se3_m";
+
+/// A column of `score`, at a key of numbers.
+struct Column {
+  std::string title;
+  std::string key;
+  Score score;
+  bool optional = false;  ///< left out where no row has a value
+};
+
+/// An estimator's trajectory, whose scores have keys that begin with `prefix`.
+struct Row {
+  std::string estimator;
+  std::string prefix;
+};
+
+/// More segments have a column for all of them alone.
+constexpr std::size_t kMostSegments = 2;
+
+Column column_of(const std::string& key, bool optional = false) {
+  const Score& score = score_at(key);
+  return {fmt::format("{} {}", score.title, score.unit), key, score, optional};
+}
+
+/// The M_list of one segment.
+Column segment_column(const std::string& segment) {
+  Column column = column_of("m_list_percent." + segment);
+  column.title = fmt::format("{}({}) {}", column.score.title, segment, column.score.unit);
+  return column;
+}
+
+/// Of several runs, whose cells are wide, those that a reader compares by.
+std::vector<Column> columns_of(const RunRecord& run, bool several) {
+  std::vector<Column> columns = {column_of("ate_yaw_m"), column_of("ate_m"),
+                                 column_of("heading_error_mrad")};
+  const Json& segments = run.scores.at("segments");
+  const bool shown = !several && segments.size() <= kMostSegments;
+  for (const Json& segment : segments) {
+    if (shown) columns.push_back(segment_column(segment["name"].get<std::string>()));
+  }
+  if (!shown || segments.size() != 1) columns.push_back(column_of("m_list_percent.all"));
+  columns.push_back(column_of("m_end_m"));
+  columns.push_back(column_of("control_points.score", true));
+  if (!several) {
+    columns.push_back(column_of(kSe3Key));
+    columns.push_back(column_of("ate_sim3_m", true));
+  }
+  columns.push_back(column_of("path_error_percent.all", true));
+  if (!several) columns.push_back(column_of("path_error_deg_per_m.all", true));
+  columns.push_back(column_of("max_error_z_m"));
+  columns.push_back(column_of("cpu_per_scan_ms.mean", true));
+  columns.back().title += "/scan";
+  return columns;
+}
+
+std::vector<Row> rows_of(std::span<const RunRecord> runs) {
+  std::vector<Row> rows;
+  for (const auto& [name, unused] : runs.front().scores.at("estimators").items()) {
+    rows.push_back({name, ""});
+    const bool optimized = std::ranges::any_of(
+        runs, [&, &own = name](const RunRecord& run) { return has_optimized(run, own); });
+    if (optimized) rows.push_back({name, kOptimizedPrefix});
+  }
+  return rows;
+}
+
+ScoreStatistics statistics_in(std::span<const RunRecord> runs, const Row& row,
+                              const std::string& key) {
+  return statistics_of(runs, row.estimator, row.prefix + key);
+}
+
+bool has_success(std::span<const RunRecord> runs, const Row& row) {
+  return successes(runs, row.estimator, row.prefix + kSuccessKey) > 0;
+}
+
+/// The best median of the column among rows with a success; none of a single row.
+std::optional<double> best_in(std::span<const RunRecord> runs, const std::vector<Row>& rows,
+                              const Column& column) {
+  if (rows.size() < 2 || is_timing(column.key)) return std::nullopt;
+  const bool larger = column.score.better == Better::kLarger;
+  std::optional<double> best;
+  for (const Row& row : rows) {
+    const auto median = statistics_in(runs, row, column.key).median;
+    if (!median || !has_success(runs, row)) continue;
+    if (!best || (larger ? *median > *best : *median < *best)) best = median;
+  }
+  return best;
+}
+
+/// " line" or " point" where least squares left an angle open.
+std::string spread_mark(const RunRecord& run, const Row& row) {
+  const Json& scores = estimator_in(run, row.estimator);
+  const std::string spread = value_in(value_in(scores, "alignment", Json()), "se3", "se3");
+  if (spread != "se3") return " " + spread;
+  return value_in(scores, "ate_se3_degenerate", false) ? " line" : "";
+}
+
+std::string cell(std::span<const RunRecord> runs, const Row& row, const Column& column,
+                 const std::optional<double>& best) {
+  const ScoreStatistics summary = statistics_in(runs, row, column.key);
+  if (!summary.median) return "-";
+  const bool success = has_success(runs, row);
+  std::string text = fmt::format("{:.{}f}", *summary.median, column.score.digits);
+  if (runs.size() > 1) text += fmt::format(" ({:.{}f})", *summary.worst, column.score.digits);
+  if (success && best && *summary.median == *best) text += "*";
+  const bool timing = is_timing(column.key);
+  if (runs.size() > 1 && !success && !timing) text += " x";
+  if (runs.size() == 1 && column.key == kSe3Key) text += spread_mark(runs.front(), row);
+  return text;
+}
+
+/// "yes", or why and when it diverged [s after the truth's start].
+std::string outcome_of(const RunRecord& run, const Row& row) {
+  const Json& scores = estimator_in(run, row.estimator);
+  const Json own = row.prefix.empty() ? scores : value_in(scores, "optimized", Json());
+  if (value_in(own, "success", false)) return "yes";
+  const std::string reason = value_in(own, "diverged_reason", "no");
+  const auto at = number_at(own, "diverged_at_s");
+  if (!at) return reason.empty() ? "no" : reason;
+  const double start = value_in(value_in(run.scores, "truth", Json()), "start_s", 0.0);
+  return fmt::format("{} at {:.1f} s", reason.empty() ? "diverged" : reason, *at - start);
+}
+
+std::string success_cell(std::span<const RunRecord> runs, const Row& row, const Score& score) {
+  if (std::ranges::none_of(runs, is_valid_run)) return "invalid run";
+  if (runs.size() == 1 && std::string(score.key) == kSuccessKey) {
+    return outcome_of(runs.front(), row);
+  }
+  const SuccessRate rate = success_rate(runs, row.estimator, row.prefix + score.key);
+  if (runs.size() > 1 || rate.runs == 0) return rate.text();
+  return rate.count == 1 ? "yes" : "no";
+}
+
+/// Least fraction of the truth's time that was tracked.
+std::string tracked_cell(std::span<const RunRecord> runs, const Row& row) {
+  std::optional<double> least;
+  for (const RunRecord& run : runs) {
+    if (!is_valid_run(run)) continue;
+    const auto value = find_score(run, row.estimator, row.prefix + "coverage");
+    if (value) least = std::min(*value, least.value_or(*value));
+  }
+  return least ? fmt::format("{:.0f} %", 100.0 * *least) : "-";
+}
+
+}  // namespace
+
+TextTable score_table(std::span<const RunRecord> runs) {
+  TextTable table;
+  if (runs.empty()) return table;
+  // A route that was not finished may lack segments.
+  const auto valid = std::ranges::find_if(runs, is_valid_run);
+  const std::vector<Row> rows = rows_of(runs);
+  std::vector<Column> columns =
+      columns_of(valid == runs.end() ? runs.front() : *valid, runs.size() > 1);
+  std::erase_if(columns, [&](const Column& column) {
+    return column.optional && std::ranges::none_of(rows, [&](const Row& row) {
+             return statistics_in(runs, row, column.key).median.has_value();
+           });
+  });
+  table.header = {"estimator"};
+  for (const Column& column : columns) table.header.push_back(column.title);
+  table.header.emplace_back("tracked");
+  for (const Score& score : success_scores()) table.header.emplace_back(score.title);
+  for (const Row& row : rows) {
+    table.rows.push_back({row.prefix.empty() ? row.estimator : optimized_label(row.estimator)});
+    for (const Column& column : columns) {
+      table.rows.back().push_back(cell(runs, row, column, best_in(runs, rows, column)));
+    }
+    table.rows.back().push_back(tracked_cell(runs, row));
+    for (const Score& score : success_scores()) {
+      table.rows.back().push_back(success_cell(runs, row, score));
+    }
+  }
+  return table;
+}
+
+std::string score_legend(std::span<const RunRecord> runs, const ScoreConfig& scoring) {
+  const char* start = scoring.truth == TruthContent::kPosition
+                          ? "the first position, the rotation by least squares over the path"
+                      : scoring.anchor == AlignmentKind::kStartPose
+                          ? "the standing start, by position and rotation"
+                          : "the first pose, by position and heading";
+  const bool several = runs.size() > 1;
+  std::string text = fmt::format(
+      "ATE yaw, heading: after least squares over all positions, by translation and heading.\n"
+      "ATE start, M_end, max |z|: aligned to the truth at {}.\n"
+      "{}RPE: mean over pieces of 5 to 100 m (KITTI). within 5 %, 1 %: position error of the\n"
+      "distance travelled so far. tracked: of the truth's time, with poses at most {:g} s apart.\n",
+      start,
+      several ? "" : "ATE SE(3): least squares by translation and rotation (Umeyama, as evo).\n",
+      scoring.max_gap);
+  if (several) {
+    text +=
+        "Cells: median over seeds (worst); x: a median over runs of which none succeeded. "
+        "Success:\n"
+        "runs, with the 95 % interval of the rate.\n";
+  }
+  if (!runs.empty() && runs.front().scores.at("estimators").size() > 1) {
+    text += "A star: best of those that succeeded.\n";
+  }
+  return text;
+}
+
+}  // namespace aims

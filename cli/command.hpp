@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cli/external_command.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace aims {
+
+/// Smallest and largest value of an option.
+struct Limits {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+enum class Presence { kOptional, kRequired };
+
+/// A command of `aims` while it is declared. Options fill variables, which must live until the
+/// action has run; a variable's value before that is the default. An empty value is an error.
+/// `names` is one spelling or several, e.g. "-o,--out".
+class Command {
+ public:
+  Command(CLI::App& app, int& exit_code) : app_(&app), exit_code_(&exit_code) {}
+
+  /// One value, or any number of them, without a flag.
+  void argument(const std::string& name, std::string& value, const std::string& help,
+                Presence presence = Presence::kRequired);
+  void arguments(const std::string& name, std::vector<std::string>& values, const std::string& help,
+                 Presence presence = Presence::kOptional);
+
+  void option(const std::string& names, std::string& value, const std::string& help,
+              Presence presence = Presence::kOptional);
+  void option(const std::string& names, std::filesystem::path& value, const std::string& help,
+              Presence presence = Presence::kOptional);
+  void option(const std::string& names, int& value, Limits limits, const std::string& help);
+  void option(const std::string& names, double& value, Limits limits, const std::string& help);
+  void option(const std::string& names, std::optional<int>& value, Limits limits,
+              const std::string& help);
+  void option(const std::string& names, std::optional<double>& value, Limits limits,
+              const std::string& help);
+  /// One of `choices`.
+  void choice(const std::string& names, std::string& value, const std::vector<std::string>& choices,
+              const std::string& help, Presence presence = Presence::kOptional);
+  /// Values separated by commas.
+  void list(const std::string& names, std::vector<std::string>& values, const std::string& help);
+  /// One value each time; may be given several times.
+  void repeatable(const std::string& names, std::vector<std::string>& values,
+                  const std::string& help, Presence presence = Presence::kOptional);
+  void flag(const std::string& names, bool& value, const std::string& help);
+  /// Makes giving both an error.
+  void exclude(const std::string& name, const std::string& other);
+
+  /// Text below the options: examples, exit codes.
+  void footer(const std::string& text);
+  /// What the command does when it is given; returns the exit code.
+  void action(std::function<int()> run);
+  /// A command below this one, which then expects one of them.
+  Command subcommand(const std::string& name, const std::string& summary);
+  /// The whole program with all its declarations.
+  const CLI::App& program() const;
+
+ private:
+  CLI::App* app_;
+  int* exit_code_;
+};
+
+/// A command of the program. `declare` gets the folder in which bare scenario names are looked up.
+struct CommandEntry {
+  const char* name;
+  const char* summary;
+  void (*declare)(Command command, const std::filesystem::path& scenario_folder);
+};
+
+/// The whole program.
+struct Program {
+  std::string name;
+  std::string description;
+  std::string footer;
+  std::string version;
+  std::span<const CommandEntry> commands;
+  std::span<const ExternalCommand> external;  ///< listed in the help where they are installed
+  std::filesystem::path scenario_folder;
+};
+
+/// Runs the command that the arguments give; its exit code, or that of a usage error, which is one
+/// line on standard error with a near match for an unknown command or option. An exception is one
+/// line and the code of an internal error.
+int run_program(const Program& program, int argc, char** argv);
+
+}  // namespace aims

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "bench/studies/comparison.hpp"
+#include "cli/commands.hpp"
+#include "cli/json_output.hpp"
+#include "cli/options.hpp"
+#include "cli/terminal.hpp"
+
+namespace aims {
+namespace {
+
+constexpr const char* kCompareName = "study compare";
+
+struct CompareArguments {
+  std::string before;
+  std::string after;
+  SharedOptions shared;
+  bool fail_on_worse = false;
+  bool json = false;
+};
+
+/// The largest number of common seeds, when results differ and no score has enough of them.
+std::optional<std::size_t> too_few_seeds(const Comparison& comparison) {
+  std::size_t most = 0;
+  for (const ScoreChange& each : comparison.changes) most = std::max(most, each.pairs);
+  const bool differ = count(comparison, ChangeVerdict::kTooFew) > 0;
+  return differ && most < kFewestPairs ? std::optional(most) : std::nullopt;
+}
+
+void print_comparison(const Comparison& comparison) {
+  print_out("{}\n{}\n{}\n", to_text(change_table(comparison)), rule_text(comparison),
+            summary_text(comparison));
+  for (const std::string& run : comparison.only_before) print_out("only before: {}\n", run);
+  for (const std::string& run : comparison.only_after) print_out("only after: {}\n", run);
+  for (const std::string& run : comparison.invalid) print_out("INVALID RUN left out: {}\n", run);
+}
+
+int compare_command(const CompareArguments& arguments) {
+  const auto before = read_results(arguments.before);
+  if (!before) return refuse(kCompareName, before.error(), arguments.json);
+  const auto after = read_results(arguments.after);
+  if (!after) return refuse(kCompareName, after.error(), arguments.json);
+  const Comparison comparison = compare(*before, *after);
+  if (arguments.json) {
+    print_json(comparison_json(comparison, arguments.before, arguments.after));
+  } else {
+    print_comparison(comparison);
+  }
+  if (!arguments.shared.out.empty()) {
+    const auto written =
+        write_comparison(comparison, arguments.before, arguments.after, arguments.shared.out);
+    if (!written) return bad_input(kCompareName, written.error());
+  }
+  if (!arguments.fail_on_worse) return kOk;
+  if (count(comparison, ChangeVerdict::kWorse) > 0) return kExpectationFailed;
+  if (const auto seeds = too_few_seeds(comparison)) {
+    return bad_input(kCompareName,
+                     Error{fmt::format("--fail-on-worse: expected at least {} common seeds, "
+                                       "found at most {}: no change can be told from noise",
+                                       kFewestPairs, *seeds)});
+  }
+  return kOk;
+}
+
+}  // namespace
+
+void declare_compare(Command command) {
+  auto arguments = std::make_shared<CompareArguments>();
+  command.argument("before", arguments->before, "Folder of aims run or aims suite");
+  command.argument("after", arguments->after, "Folder of aims run or aims suite");
+  add_out(command, arguments->shared, "nowhere: the result is only printed");
+  command.flag("--fail-on-worse", arguments->fail_on_worse,
+               "Exit with 1 when a score got significantly worse, with 2\n"
+               "when there are too few common seeds");
+  add_json(command, arguments->json);
+  command.footer(
+      "Runs are paired by scenario, seed and estimator.\n"
+      "Examples:\n"
+      "  aims study compare out/before out/after\n"
+      "  aims study compare out/suite out/eta5 --out out/eta5-compared --fail-on-worse");
+  command.action([arguments] { return compare_command(*arguments); });
+}
+
+}  // namespace aims

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace aims {
+
+/// Exit codes of the `aims` command.
+enum ExitCode : int {
+  kOk = 0,
+  kExpectationFailed = 1,  ///< an expectation of a scenario failed; jobs failed or are missing
+  kBadInput = 2,           ///< usage, configuration or files
+  kInternal = 3,           ///< a defect of this program
+  kInvalidRun = 4,         ///< a run is invalid (bench/scoring/validity.hpp), or an estimate
+  kInterrupted = 130,      ///< Ctrl-C; results so far are written
+  kTerminated = 143,       ///< SIGTERM; likewise
+};
+
+}  // namespace aims

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/tuning/objective.hpp"
+#include "bench/tuning/sweep_store.hpp"
+#include "cli/commands.hpp"
+#include "cli/options.hpp"
+#include "cli/sweep_results.hpp"
+#include "cli/terminal.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostShown = 10;  ///< jobs that are listed one by one
+
+struct MergeArguments {
+  std::vector<std::string> folders;
+  SharedOptions shared;
+  std::string score = Objective{}.score;
+};
+
+/// Lists jobs that failed or are missing, up to a number.
+void print_open(const MergedSweep& sweep) {
+  std::size_t open = 0;
+  for (const MergedJob& job : sweep.jobs) {
+    const std::string outcome = job.outcome();
+    if (outcome == "done" || ++open > kMostShown) continue;
+    const std::string message = job.file.is_object() ? job.file.value("message", "") : "";
+    const std::string why = job.invalid().value_or(message);
+    print_out("{}: {} {} seed {} {}{}{}\n", outcome, job.listed.id, job.listed.scenario,
+              job.listed.seed, job.listed.estimator, why.empty() ? "" : ": ", why);
+  }
+  if (open > kMostShown) print_out("and {} more\n", open - kMostShown);
+}
+
+int merge_command(const MergeArguments& arguments) {
+  const std::vector<fs::path> folders(arguments.folders.begin(), arguments.folders.end());
+  if (folders.size() > 1 && arguments.shared.out.empty()) {
+    return bad_input("merge", {"several folders: expected --out"});
+  }
+  const fs::path out =
+      arguments.shared.out.empty() ? folders.front() : fs::path(arguments.shared.out);
+  const auto sweep = merge_sweeps(folders);
+  if (!sweep) return bad_input("merge", sweep.error());
+  if (auto written = write_results(*sweep, arguments.score, out); !written) {
+    return bad_input("merge", written.error());
+  }
+  print_out("{}\n", to_text(merge_table(*sweep)));
+  print_points(*sweep, arguments.score);
+  print_open(*sweep);
+  if (sweep->others > 0) {
+    print_out("note: {} results of another plan, code or scenario version are left out\n",
+              sweep->others);
+  }
+  print_out("{} of {} jobs done: {}, sweep.csv, sweep.md\n", sweep->count("done"),
+            sweep->jobs.size(), (out / "sweep.sqlite").string());
+  const std::size_t invalid = sweep->count("invalid");
+  if (sweep->count("done") + invalid < sweep->jobs.size()) return kExpectationFailed;
+  return invalid == 0 ? kOk : kInvalidRun;
+}
+
+}  // namespace
+
+void declare_merge(Command command, const fs::path& /*scenarios*/) {
+  auto arguments = std::make_shared<MergeArguments>();
+  command.arguments("folder", arguments->folders, "Folders of aims sweep, finished or not",
+                    Presence::kRequired);
+  add_out(command, arguments->shared, "the first folder");
+  command.option("--score", arguments->score,
+                 "Key of scores.json that sweep.md analyses (ate_yaw_m)");
+  command.footer(
+      "Writes sweep.sqlite, sweep.csv, sweep.md and pictures.\n"
+      "Examples:\n"
+      "  aims merge out/sweep\n"
+      "  sqlite3 out/sweep/sweep.sqlite \"SELECT p.value, avg(s.value) FROM parameters p\n"
+      "      JOIN scores s USING (job) WHERE p.key='degeneracy.eta' AND s.key='m_end_m'\n"
+      "      GROUP BY p.value\"\n"
+      "Exit codes: as of aims; 1 when jobs failed or are missing.");
+  command.action([arguments] { return merge_command(*arguments); });
+}
+
+}  // namespace aims

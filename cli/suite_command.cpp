@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+
+#include "bench/scoring/score_table.hpp"
+#include "bench/studies/families.hpp"
+#include "bench/studies/suite_summary.hpp"
+#include "bench/studies/suite_tables.hpp"
+#include "bench/studies/written_runs.hpp"
+#include "cli/commands.hpp"
+#include "cli/json_output.hpp"
+#include "cli/options.hpp"
+#include "cli/progress.hpp"
+#include "cli/suite_options.hpp"
+#include "cli/terminal.hpp"
+#include "render/results/study_pictures.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SuiteArguments {
+  SharedOptions shared;
+  bool trajectories = false;
+  bool no_page = false;
+  bool json = false;
+};
+
+void print_matrix(const std::string& title, const TextTable& table) {
+  print_out("{}\n{}\n", title, to_text(table));
+}
+
+/// More scenarios than this are one table per score, not one per scenario.
+constexpr std::size_t kMostTables = 6;
+
+/// The table of scores of each scenario, as `aims run` prints it.
+void print_scenarios(const Suite& suite) {
+  const SuiteCase* last = nullptr;
+  for (const SuiteCase& each : suite.cases) {
+    if (each.runs.empty()) continue;
+    print_matrix(each.scenario.name, score_table(each.runs));
+    last = &each;
+  }
+  if (last != nullptr) print_out("{}\n", score_legend(last->runs, last->scenario.scoring));
+}
+
+void print_matrices(const Suite& suite) {
+  print_out("Median [95 % bootstrap interval] worst, over seeds\n\n");
+  for (const Score& score : headline_scores()) {
+    const std::string key = score.key;
+    if (key == "max_error_z_m" || key == "m_end_m") continue;  // in suite.md
+    print_matrix(fmt::format("{} [{}]", score.title, score.unit), headline_table(suite, score));
+  }
+  for (const Score& score : success_scores()) {
+    print_matrix(fmt::format("Success {} of the distance, with 95 % interval", score.title),
+                 success_table(suite, score));
+  }
+}
+
+void print_suite(const Suite& suite, const SharedOptions& shared) {
+  if (suite.cases.size() <= kMostTables) {
+    print_scenarios(suite);
+  } else {
+    print_matrices(suite);
+  }
+  const TextTable pairs = success_pairs_table(suite, false);
+  if (!pairs.rows.empty()) print_matrix("Pairs of estimators (McNemar's exact test)", pairs);
+  const auto families = family_results(suite);
+  if (!families.empty()) print_matrix("Level of failure", breaks_table(families));
+  print_ring_notes(suite);
+  print_expectations(suite);
+  print_outcome(suite, shared);
+  for (const SuiteCase& each : suite.cases) {
+    for (const std::string& warning : calibration_warnings(shared, each.scenario)) {
+      print_out("warning: {}\n", warning);
+    }
+  }
+  print_out("results: {}, suite.json, suite.csv\n", (fs::path(shared.out) / "suite.md").string());
+}
+
+Result<void> write_results(const Suite& suite, const SuiteArguments& arguments) {
+  const fs::path out = arguments.shared.out;
+  auto written = write_suite(suite, out);
+  if (written && arguments.trajectories) written = write_suite_runs(suite, out);
+  if (!written) return written;
+  DrawDisplay display(arguments.shared.quiet);
+  return draw_families(family_results(suite), out / "families", display.observer());
+}
+
+Result<Answer> suite_command(const SuiteArguments& arguments) {
+  const SharedOptions& shared = arguments.shared;
+  auto options = suite_options(shared, {});
+  if (!options) return tl::unexpected(options.error());
+  options->jobs.outputs.trajectories = arguments.trajectories;
+  auto scenarios = scenarios_of(shared);
+  if (!scenarios) return tl::unexpected(scenarios.error());
+  const auto suite = run_with_display(std::move(*scenarios), *options, shared.quiet);
+  if (!suite) return tl::unexpected(suite.error());
+  if (auto written = write_results(*suite, arguments); !written) {
+    return tl::unexpected(written.error());
+  }
+  print_suite(*suite, shared);
+  if (!arguments.no_page) write_pages_of(shared.out, shared.quiet);
+  return Answer{exit_code_with_expectations(*suite), suite_document(*suite)};
+}
+
+}  // namespace
+
+void declare_suite(Command command, const fs::path& scenarios) {
+  auto arguments = std::make_shared<SuiteArguments>();
+  SharedOptions& shared = arguments->shared;
+  shared.folder = scenarios.string();
+  add_suite_options(command, shared, "out/suite", "those of each scenario");
+  add_estimators(command, shared, "those of each scenario");
+  add_calibration(command, shared);
+  command.flag("--trajectories", arguments->trajectories,
+               "Keep trajectories and diagnostics of each run");
+  command.flag("--no-page", arguments->no_page, "Write no HTML pages");
+  add_json(command, arguments->json);
+  command.footer(
+      "Without scenarios and tags, every scenario of the folder runs. The same command\n"
+      "again continues, and runs only what is missing or has changed.\n"
+      "Examples:\n"
+      "  aims suite --tags severity --seeds 1-10 --out out/severity\n"
+      "  aims suite corridor corridor_smooth --seeds 1-5 --estimators aims,lio\n"
+      "  aims suite --tags stress --seeds 1-3 --set estimators.aims.degeneracy.eta=5 --out "
+      "out/eta5\n"
+      "Exit codes: as of aims; 2 also when a job failed.");
+  command.action([arguments] {
+    return answer("suite", arguments->json, [&] { return suite_command(*arguments); });
+  });
+}
+
+}  // namespace aims

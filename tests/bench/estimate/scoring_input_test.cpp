@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/estimate/scoring_input.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "bench/scenario/scoring_config.hpp"
+#include "core/files/tum.hpp"
+#include "recordings/bag/bag_writer.hpp"
+#include "recordings/messages/message_encoding.hpp"
+#include "recordings/messages/message_types.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace aims {
+namespace {
+
+constexpr const char* kWaypointTimes = "point,stamp_s\na,1\nb,4\na,9\n";
+
+/// A bend in space, sampled at 10 Hz over ten seconds.
+Trajectory bend() {
+  Trajectory trajectory;
+  for (int i = 0; i <= 100; ++i) {
+    const double t = 0.1 * i;
+    trajectory.push_back({from_seconds(t),
+                          {so3_exp(Eigen::Vector3d(0.02 * t, -0.05 * t, 0.2 * t)),
+                           Eigen::Vector3d(t, 0.1 * t * t, 0.3 + 0.05 * std::sin(t))}});
+  }
+  return trajectory;
+}
+
+std::string kitti_text(const Trajectory& trajectory) {
+  std::string text;
+  for (const StampedPose& each : trajectory) {
+    const Eigen::Matrix3d R = each.pose.R();
+    for (int row = 0; row < 3; ++row) {
+      text += fmt::format("{} {} {} {}{}", R(row, 0), R(row, 1), R(row, 2),
+                          each.pose.translation[row], row < 2 ? " " : "\n");
+    }
+  }
+  return text;
+}
+
+std::string times_text(const Trajectory& trajectory) {
+  std::string text;
+  for (const StampedPose& each : trajectory) text += fmt::format("{}\n", to_seconds(each.stamp));
+  return text;
+}
+
+class ScoringInputs : public ::testing::Test {
+ protected:
+  std::string file(const std::string& name, const std::string& text) const {
+    const auto path = folder_.path() / name;
+    std::ofstream(path) << text;
+    return path.string();
+  }
+
+  std::string bag(const Trajectory& trajectory) const {
+    const auto path = folder_.path() / "run.bag";
+    auto writer = BagWriter::create(path);
+    const auto odometry = writer->add_connection("/odom", odometry_type());
+    const auto waypoint_times = writer->add_connection("/aims/waypoint_times", string_type());
+    for (const StampedPose& each : trajectory) {
+      const auto message = odometry_message({0, each.stamp, "world"}, "imu", {each.pose, {}, {}});
+      EXPECT_TRUE(writer->write(odometry, kSecond + each.stamp, message.view()));
+    }
+    EXPECT_TRUE(writer->write(waypoint_times, 20 * kSecond, string_message(kWaypointTimes).view()));
+    EXPECT_TRUE(writer->close());
+    return path.string();
+  }
+
+  static std::string message_of(const ScoringRequest& request) {
+    const auto input = read_scoring_input(request);
+    return input ? "" : input.error().message;
+  }
+
+  /// A request that needs nothing more.
+  ScoringRequest plain() const {
+    ScoringRequest request;
+    request.truth = file("truth.tum", tum_text(bend()));
+    request.estimates = {file("mine.tum", tum_text(bend()))};
+    return request;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(ScoringInputs, WaypointTimesOfARunAreScoredOverItsScenariosSegments) {
+  // As on the garage: from a to d and from d to h, past the points between.
+  const std::string times = "point,stamp_s\na,0\nb,2\nd,4\nf,5\nh,7\nd,8\na,9\n";
+  const std::string config = "scoring: {segments: [a-d, d-h, h-d, d-a]}\n";
+  ScoringRequest request = plain();
+  request.waypoint_times = file("waypoint_times.csv", times);
+  const auto names_of = [](const ScoringInput& input) {
+    std::vector<std::string> names;
+    for (const Segment& each : input.segments) names.push_back(each.name);
+    return names;
+  };
+  EXPECT_EQ(names_of(*read_scoring_input(request)).size(), 6U) << "nothing states other segments";
+  file("config.yaml", config);
+  const auto stated = read_scoring_input(request);
+  ASSERT_TRUE(stated) << stated.error().message;
+  EXPECT_EQ(names_of(*stated), (std::vector<std::string>{"a-d", "d-h", "h-d", "d-a"}));
+  ASSERT_EQ(stated->notes.size(), 1U);
+  EXPECT_NE(stated->notes[0].find("segments a-d, d-h, h-d, d-a: as "), std::string::npos);
+  request.scoring.segments = {"a-d"};
+  EXPECT_EQ(names_of(*read_scoring_input(request)), std::vector<std::string>{"a-d"});
+  request.scoring.segments.clear();
+  request.segments = "d-h";
+  EXPECT_EQ(names_of(*read_scoring_input(request)), std::vector<std::string>{"d-h"});
+  request.segments.clear();
+  file("config.yaml", "of: another version\n");
+  EXPECT_EQ(names_of(*read_scoring_input(request)).size(), 6U);
+}
+
+TEST_F(ScoringInputs, TumKittiAndBagGiveTheSameScores) {
+  Trajectory drifting = bend();
+  for (StampedPose& each : drifting) each.pose.translation *= 1.03;
+  ScoringRequest request;
+  request.truth = file("truth.tum", tum_text(bend()));
+  request.estimates = {file("mine.tum", tum_text(drifting)), file("mine.txt", kitti_text(drifting)),
+                       bag(drifting)};
+  request.times = file("times.txt", times_text(drifting));
+  request.waypoint_times = file("waypoint_times.csv", kWaypointTimes);
+  const auto input = read_scoring_input(request);
+  ASSERT_TRUE(input) << input.error().message;
+  const auto scores = score_trajectories(*input);
+  ASSERT_TRUE(scores) << scores.error().message;
+  const Scores& tum = scores->estimates[0].scores;
+  EXPECT_NEAR(*tum.m_list_percent, 3.0, 1e-9);
+  ASSERT_EQ(tum.segments.size(), 2U);
+  for (const std::size_t i : {1U, 2U}) {
+    const Scores& other = scores->estimates[i].scores;
+    SCOPED_TRACE(scores->estimates[i].given.kind);
+    EXPECT_NEAR(*other.m_list_percent, *tum.m_list_percent, 1e-9);
+    EXPECT_NEAR(*other.ate_m, *tum.ate_m, 1e-12);
+    EXPECT_NEAR(*other.ate_se3_m, *tum.ate_se3_m, 1e-12);
+    EXPECT_NEAR(*other.rpe[0].rotation_rmse_rad, *tum.rpe[0].rotation_rmse_rad, 1e-7);
+    EXPECT_EQ(other.poses_compared, tum.poses_compared);
+  }
+  EXPECT_EQ(scores->estimates[1].given.kind, "KITTI poses");
+  EXPECT_EQ(scores->estimates[2].given.name, "run/odom");
+}
+
+TEST_F(ScoringInputs, ATruthInABagBringsItsWaypointTime) {
+  ScoringRequest request = plain();
+  request.truth = bag(bend());
+  const auto input = read_scoring_input(request);
+  ASSERT_TRUE(input) << input.error().message;
+  ASSERT_EQ(input->segments.size(), 2U);
+  EXPECT_EQ(input->segments[1].name, "b-a");
+  EXPECT_EQ(input->segments[1].end, 9 * kSecond);
+}
+
+TEST_F(ScoringInputs, KittiPosesTakeTheStampsOfATruthOfTheSameLength) {
+  ScoringRequest request = plain();
+  request.estimates = {file("mine.txt", kitti_text(bend()))};
+  const auto input = read_scoring_input(request);
+  ASSERT_TRUE(input) << input.error().message;
+  EXPECT_EQ(input->estimates[0].trajectory[7].stamp, 700 * kMillisecond);
+  const auto said = [&](const char* words) {
+    return std::any_of(input->notes.begin(), input->notes.end(), [&](const std::string& note) {
+      return note.find(words) != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(said("take the stamps of the truth"));
+  EXPECT_TRUE(said("taken with z up"));
+  request.truth = request.estimates[0];
+  EXPECT_NE(message_of(request).find("--times"), std::string::npos) << "a truth has to have stamps";
+}
+
+TEST_F(ScoringInputs, TheExtrinsicTurnsThePosesOfAnotherFrameIntoTheBodys) {
+  const Pose T_body_lidar = {so3_exp(Eigen::Vector3d(0.1, 0.4, -1.2)), {0.2, -0.1, 0.15}};
+  Trajectory of_lidar = bend();
+  for (StampedPose& each : of_lidar) each.pose = each.pose * T_body_lidar;
+  ScoringRequest request = plain();
+  request.estimates = {file("lidar.tum", tum_text(of_lidar))};
+  const auto& q = T_body_lidar.rotation;
+  request.extrinsic = fmt::format("0.2 -0.1 0.15 {} {} {} {}", q.x(), q.y(), q.z(), q.w());
+  const auto input = read_scoring_input(request);
+  ASSERT_TRUE(input) << input.error().message;
+  EXPECT_LT(*score_trajectories(*input)->estimates[0].scores.ate_m, 1e-12);
+  request.extrinsic.clear();
+  EXPECT_GT(*score_trajectories(*read_scoring_input(request))->estimates[0].scores.ate_m, 0.05);
+}
+
+TEST_F(ScoringInputs, TheTimeOffsetIsAddedToTheEstimates) {
+  Trajectory late = bend();
+  for (StampedPose& each : late) each.stamp += 1000 * kSecond;
+  ScoringRequest request = plain();
+  request.estimates = {file("late.tum", tum_text(late))};
+  EXPECT_FALSE(score_trajectories(*read_scoring_input(request)));
+  request.time_offset_s = -1000.0;
+  EXPECT_EQ(score_trajectories(*read_scoring_input(request))->estimates[0].scores.ate_m, 0.0);
+}
+
+TEST_F(ScoringInputs, EstimatesOfOneNameAreNumbered) {
+  ScoringRequest request = plain();
+  request.estimates.push_back(request.estimates[0]);
+  const auto input = read_scoring_input(request);
+  ASSERT_TRUE(input);
+  EXPECT_EQ(input->estimates[0].name, "mine");
+  EXPECT_EQ(input->estimates[1].name, "mine#2");
+  request.names = {"first", "second"};
+  EXPECT_EQ(read_scoring_input(request)->estimates[1].name, "second");
+  request.names = {"first"};
+  EXPECT_NE(message_of(request).find("--name: expected one for each of 2"), std::string::npos);
+}
+
+TEST_F(ScoringInputs, OnlyTheScoringOfAConfigurationCounts) {
+  const std::string config = file("run.yaml", "lidar: {range_max: 30}\nscoring: {max_gap: 7}\n");
+  const auto scoring_with = [&](const std::string& setting) {
+    return scoring_config(config, std::vector<std::string>{setting});
+  };
+  const auto scoring = scoring_with("scoring.anchor=pose");
+  ASSERT_TRUE(scoring) << scoring.error().message;
+  EXPECT_EQ(scoring->max_gap, 7.0);
+  EXPECT_EQ(scoring->anchor, AlignmentKind::kStartPose);
+  EXPECT_NE(
+      scoring_with("scoring.ancor=pose").error().message.find("did you mean 'scoring.anchor'?"),
+      std::string::npos);
+  EXPECT_NE(scoring_with("lidar.range_max=3").error().message.find("unknown key 'lidar.range_max'"),
+            std::string::npos);
+}
+
+std::string positions_text(const Trajectory& trajectory, const Eigen::Vector3d& lever) {
+  std::string text = "#timestamp, x, y, z\n";
+  for (const StampedPose& each : trajectory) {
+    const Eigen::Vector3d p = each.pose * lever;
+    text +=
+        fmt::format("{}, {}, {}, {}\n", each.stamp + 1'600'000'000 * kSecond, p.x(), p.y(), p.z());
+  }
+  return text;
+}
+
+TEST_F(ScoringInputs, APrismIsReachedByALeverArmGivenOrFitted) {
+  ScoringRequest request;
+  request.truth = file("prism.csv", positions_text(bend(), {0.1, 0.2, 0.5}));
+  request.estimates = {file("mine.tum", tum_text(bend()))};
+  request.time_offset_s = 1'600'000'000.0;
+  const auto off = score_trajectories(*read_scoring_input(request));
+  ASSERT_TRUE(off) << off.error().message;
+  EXPECT_GT(off->estimates[0].scores.ate_yaw_m.value(), 0.02);
+  EXPECT_FALSE(off->estimates[0].scores.heading_error_rad);
+  request.lever_arm = "0.1 0.2 0.5";
+  const auto given = score_trajectories(*read_scoring_input(request));
+  EXPECT_NEAR(given->estimates[0].scores.ate_yaw_m.value(), 0.0, 1e-9);
+  request.lever_arm = "estimate";
+  const auto fitted = score_trajectories(*read_scoring_input(request));
+  EXPECT_NEAR(fitted->estimates[0].scores.ate_yaw_m.value(), 0.0, 1e-6);
+  request.lever_arm = "0.1 0.2";
+  EXPECT_NE(message_of(request).find("--lever-arm '0.1 0.2': expected 'x y z' in metres"),
+            std::string::npos);
+}
+
+TEST_F(ScoringInputs, APoseOfTheEndIsATruthOfItsOwn) {
+  ScoringRequest request = plain();
+  request.truth.clear();
+  const Pose T_start_end = bend().front().pose.inverse() * bend().back().pose;
+  const Eigen::Quaterniond& q = T_start_end.rotation;
+  const Eigen::Vector3d p = T_start_end.translation + Eigen::Vector3d(0.0, 0.3, 0.4);
+  request.end_pose =
+      fmt::format("{} {} {} {} {} {} {}", p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
+  const auto scores = score_trajectories(*read_scoring_input(request));
+  ASSERT_TRUE(scores) << scores.error().message;
+  EXPECT_NEAR(scores->estimates[0].scores.m_end.value().norm_m, 0.5, 1e-9);
+  request.end_pose = "0 0 0";  // a closed route, which the bend is not
+  const auto closed = score_trajectories(*read_scoring_input(request));
+  EXPECT_NEAR(closed->estimates[0].scores.m_end.value().norm_m, T_start_end.translation.norm(),
+              1e-9);
+  request.truth = plain().truth;
+  EXPECT_NE(message_of(request).find("--truth or --end-pose"), std::string::npos);
+}
+
+TEST_F(ScoringInputs, PositionsWrittenAsPosesAndFewPointsAreRecognized) {
+  ScoringRequest request = plain();
+  Trajectory level = bend();
+  for (StampedPose& each : level) each.pose.rotation.setIdentity();
+  request.truth = file("station.tum", tum_text(level));
+  auto input = read_scoring_input(request);
+  ASSERT_TRUE(input) << input.error().message;
+  EXPECT_EQ(input->scoring.truth, TruthContent::kPosition);
+  EXPECT_EQ(input->scoring.association, Association::kInterpolated);
+  Trajectory few;
+  for (std::size_t i = 0; i < level.size(); i += 25) few.push_back(level[i]);
+  request.truth = file("points.tum", tum_text(few));
+  input = read_scoring_input(request);
+  EXPECT_EQ(input->scoring.association, Association::kAtTruth);
+  EXPECT_EQ(input->scoring.truth, TruthContent::kPose) << "five attitudes may be the same";
+  EXPECT_EQ(read_scoring_input(plain())->scoring.truth, TruthContent::kPose);
+}
+
+TEST_F(ScoringInputs, BadArgumentsAreNamed) {
+  ScoringRequest request = plain();
+  request.extrinsic = "1 2 3 0 0 0 2";
+  EXPECT_NE(message_of(request).find("--extrinsic '1 2 3 0 0 0 2': expected"), std::string::npos);
+  request = plain();
+  request.segments = "a-b";
+  EXPECT_NE(message_of(request).find("passed are: none"), std::string::npos);
+  request = plain();
+  request.waypoint_times = file("p.csv", "x\n");
+  EXPECT_NE(message_of(request).find("p.csv:1: expected the header"), std::string::npos);
+  request = plain();
+  request.times = file("t.txt", "1\nx\n");
+  EXPECT_NE(message_of(request).find("t.txt:2: expected one stamp"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace aims

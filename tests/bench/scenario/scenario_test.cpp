@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/scenario/scenario.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <set>
+
+#include "bench/scenario/catalogue.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace aims {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ScenarioFolder : public ::testing::Test {
+ protected:
+  void write(const fs::path& name, const char* yaml) const {
+    fs::create_directories((folder_.path() / name).parent_path());
+    std::ofstream(folder_.path() / name) << yaml;
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(ScenarioFolder, IsSearchedToItsDepthByBareName) {
+  write("plain.yaml", "seed: 4");
+  write("stress/loss/half.yaml", "{base: ../../plain.yaml, family: loss, level: 0.5}");
+  const auto file = find_scenario("half", folder_.path());
+  ASSERT_TRUE(file) << file.error().message;
+  const auto scenario = load_scenario(*file, {});
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  EXPECT_EQ(scenario->name, "half");
+  EXPECT_EQ(scenario->seed, 4);
+  EXPECT_EQ(scenario->family, "loss");
+  EXPECT_EQ(scenario->level, 0.5);
+  const auto typo = find_scenario("hall", folder_.path());
+  ASSERT_FALSE(typo);
+  EXPECT_NE(typo.error().message.find("did you mean 'half'?"), std::string::npos);
+}
+
+TEST_F(ScenarioFolder, RefusesTwoFilesOfOneName) {
+  write("a/same.yaml", "seed: 1");
+  write("b/same.yaml", "seed: 2");
+  const auto found = find_scenario("same", folder_.path());
+  ASSERT_FALSE(found);
+  EXPECT_NE(found.error().message.find("two scenarios of the same name"), std::string::npos);
+  EXPECT_FALSE(scenarios_in(folder_.path(), {}));
+}
+
+TEST(ShippedScenarios, ExpectNoEstimatorToFail) {
+  const auto files = scenarios_in(AIMS_SCENARIOS, {});
+  ASSERT_TRUE(files) << files.error().message;
+  for (const auto& [file, scenario] : *files) {
+    ASSERT_TRUE(scenario) << scenario.error().message;
+    for (const Expectation& expectation : scenario->expect) {
+      if (expectation.score != "success" && expectation.score != "optimized.success") continue;
+      EXPECT_GE(expectation.max, 1.0)
+          << file << ": " << expectation.estimator << " must fail: a better one would break this";
+    }
+  }
+}
+
+TEST(ShippedScenarios, OfStressDrawTheirOwnSensors) {
+  const auto files = scenarios_in(AIMS_SCENARIOS, {});
+  ASSERT_TRUE(files) << files.error().message;
+  std::size_t stress = 0;
+  for (const auto& [file, scenario] : *files) {
+    const bool of_stress = std::ranges::count(scenario->tags, "stress") > 0;
+    const std::string& draw = scenario->simulation.sensor_draw;
+    EXPECT_TRUE(draw == scenario->name || (draw.empty() && !of_stress)) << file << ": " << draw;
+    stress += of_stress;
+  }
+  EXPECT_GT(stress, 80U);
+}
+
+TEST(ShippedScenarios, LoadAndAreCalledAsTheirFiles) {
+  const auto files = scenarios_in(AIMS_SCENARIOS, {});
+  ASSERT_TRUE(files) << files.error().message;
+  EXPECT_FALSE(files->empty());
+  for (const auto& [file, scenario] : *files) {
+    ASSERT_TRUE(scenario) << scenario.error().message;
+    EXPECT_EQ(scenario->name, file.stem().string()) << "a name from a base?";
+  }
+}
+
+TEST(ShippedScenarios, HaveHeadsThatAreThoseOfTheWholeScenarios) {
+  const auto files = scenarios_in(AIMS_SCENARIOS, {});
+  const auto heads = scenario_heads(AIMS_SCENARIOS, {});
+  ASSERT_TRUE(files);
+  ASSERT_TRUE(heads);
+  ASSERT_EQ(files->size(), heads->size());
+  for (std::size_t i = 0; i < files->size(); ++i) {
+    const Result<ScenarioHead>& head = (*heads)[i].head;
+    const Scenario& whole = *(*files)[i].scenario;
+    ASSERT_TRUE(head) << head.error().message;
+    EXPECT_EQ(head->name, whole.name);
+    EXPECT_EQ(head->description, whole.description);
+    EXPECT_EQ(head->tags, whole.tags);
+    EXPECT_EQ(head->family, whole.family);
+    EXPECT_EQ(head->level, whole.level);
+    EXPECT_EQ(head->level_unit, whole.level_unit);
+  }
+}
+
+TEST_F(ScenarioFolder, ATagFindsItsScenariosWhateverElseIsBroken) {
+  write("right.yaml", "tags: [mine]");
+  write("wrong.yaml", "tags: [other]\nsedd: 1");
+  const std::vector<std::string> tags = {"mine"};
+  const auto files = scenarios_in(folder_.path(), tags);
+  ASSERT_TRUE(files) << files.error().message;
+  ASSERT_EQ(files->size(), 1U);
+  EXPECT_TRUE(files->front().scenario);
+}
+
+TEST(ShippedScenarios, OfAFamilyShareItsUnitAndDifferInLevel) {
+  const auto files = scenarios_in(AIMS_SCENARIOS, {});
+  ASSERT_TRUE(files);
+  std::map<std::string, std::string> units;
+  std::set<std::pair<std::string, double>> levels;
+  for (const auto& [file, scenario] : *files) {
+    if (!scenario || scenario->family.empty()) continue;
+    const auto [unit, is_new] = units.emplace(scenario->family, scenario->level_unit);
+    EXPECT_EQ(unit->second, scenario->level_unit) << file;
+    EXPECT_TRUE(levels.emplace(scenario->family, scenario->level).second) << file;
+  }
+}
+
+}  // namespace
+}  // namespace aims

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/scoring/validity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bench/run/expectations.hpp"
+#include "bench/scoring/score_statistics.hpp"
+#include "bench/scoring/score_table.hpp"
+
+namespace aims {
+namespace {
+
+WalkOutcome ended_by(WalkEnd end, double wall_contact = 0.0) {
+  WalkOutcome walk;
+  walk.end = end;
+  walk.touched_wall = wall_contact > 0.0;
+  walk.wall_contact_fraction = wall_contact;
+  return walk;
+}
+
+/// A record of one estimator, of a robot that came to `robot` after 1.2 s.
+RunRecord record(std::uint64_t seed, double ate, const Json& robot) {
+  RunRecord run;
+  run.seed = seed;
+  run.scores = {{"simulated_s", 1.2},
+                {"robot", robot},
+                {"segments", Json::array()},
+                {"estimators", {{"aims", {{"success", true}, {"ate_m", ate}}}}}};
+  mark_validity(run.scores);
+  return run;
+}
+
+const Json kFallen = {{"fell", true}, {"end", "fell"}};
+const Json kFine = {{"fell", false}, {"end", "route_done"}};
+
+TEST(Validity, OnlyAFinishedRouteIsValid) {
+  EXPECT_FALSE(invalid_reason(ended_by(WalkEnd::kRouteDone), 60.0));
+  EXPECT_EQ(invalid_reason(ended_by(WalkEnd::kFell), 1.23), "the robot fell at 1.2 s");
+  EXPECT_EQ(invalid_reason(ended_by(WalkEnd::kLeftScene), 7.0),
+            "the robot left the scene at 7.0 s");
+  for (const WalkEnd end :
+       {WalkEnd::kRunning, WalkEnd::kNoProgress, WalkEnd::kTimeLimit, WalkEnd::kUnstablePhysics}) {
+    const auto reason = invalid_reason(ended_by(end), 900.0);
+    ASSERT_TRUE(reason) << name_of(end);
+    EXPECT_NE(reason->find("900.0 s"), std::string::npos) << *reason;
+  }
+}
+
+TEST(Validity, BrushingAWallIsWalkingAndFollowingItIsNot) {
+  EXPECT_FALSE(invalid_reason(ended_by(WalkEnd::kRouteDone, kMaxWallContact), 60.0));
+  EXPECT_EQ(invalid_reason(ended_by(WalkEnd::kRouteDone, 0.83), 60.0),
+            "the robot touched a wall for 83 % of the time walked");
+}
+
+TEST(Validity, IsReadFromRecordsOldAndNew) {
+  EXPECT_FALSE(invalid_reason(Json{{"robot", {{"fell", false}, {"touched_wall", true}}}}));
+  EXPECT_TRUE(invalid_reason(Json{{"robot", {{"fell", true}}}, {"simulated_s", 3.0}}));
+  EXPECT_TRUE(invalid_reason(Json{{"robot", {{"fell", false}, {"end", "no_progress"}}}}));
+  EXPECT_TRUE(
+      invalid_reason(Json{{"robot", {{"end", "route_done"}, {"wall_contact_fraction", 0.9}}}}));
+  EXPECT_FALSE(invalid_reason(Json{{"estimators", Json::object()}})) << "a recording of others";
+  EXPECT_TRUE(invalid_reason(Json{{"interrupted", true}}));
+  EXPECT_FALSE(invalid_reason(Json{{"robot", nullptr}}));
+  EXPECT_FALSE(invalid_reason(Json()));
+}
+
+TEST(Validity, MarksTheRecordAndTakesItsSuccesses) {
+  const RunRecord fallen = record(3, 0.01, kFallen);
+  EXPECT_EQ(fallen.scores["robot"]["valid"], false);
+  EXPECT_EQ(fallen.scores["robot"]["invalid_reason"], "the robot fell at 1.2 s");
+  EXPECT_EQ(fallen.scores["estimators"]["aims"]["success"], false);
+  const RunRecord fine = record(4, 0.01, kFine);
+  EXPECT_EQ(fine.scores["robot"]["valid"], true);
+  EXPECT_TRUE(fine.scores["robot"]["invalid_reason"].is_null());
+  EXPECT_EQ(fine.scores["estimators"]["aims"]["success"], true);
+}
+
+TEST(Validity, NoStatisticHoldsAnInvalidRun) {
+  const std::vector<RunRecord> runs = {record(1, 0.2, kFine), record(2, 9.0, kFallen),
+                                       record(3, 0.4, kFine)};
+  const ScoreStatistics ate = statistics_of(runs, "aims", "ate_m");
+  EXPECT_EQ(ate.count, 2U);
+  EXPECT_NEAR(*ate.median, 0.3, 1e-12);
+  EXPECT_NEAR(*ate.worst, 0.4, 1e-12);
+  EXPECT_EQ(finished(runs, "aims"), 2U);
+  EXPECT_EQ(successes(runs, "aims"), 2U);
+  EXPECT_EQ(paired({runs, "aims"}, {runs, "aims"}, "ate_m").value.size(), 2U);
+  const std::vector<std::string> row = score_table(runs).rows.at(0);
+  EXPECT_EQ(row.at(row.size() - 2), "2/2 (34-100 %)");
+  EXPECT_EQ(row.back(), "-") << "of 1 %, which older results lack";
+  EXPECT_EQ(left_out_text(runs),
+            "1 of 3 runs are invalid and left out: seed 2 (the robot fell at 1.2 s)");
+  EXPECT_EQ(invalid_json(runs),
+            Json::parse(R"([{"seed": 2, "reason": "the robot fell at 1.2 s"}])"));
+}
+
+TEST(Validity, AMedianOverRunsWithoutSuccessIsMarked) {
+  std::vector<RunRecord> runs = {record(1, 0.2, kFine), record(3, 0.4, kFine)};
+  const auto cells_of = [](const TextTable& table, std::size_t row, const std::string& title) {
+    const auto at = std::ranges::find(table.header, title) - table.header.begin();
+    return table.rows.at(row).at(static_cast<std::size_t>(at));
+  };
+  EXPECT_EQ(cells_of(score_table(runs), 0, "ATE start m"), "0.300 (0.400)");
+  for (RunRecord& run : runs) {
+    run.scores["estimators"]["lio"] = run.scores["estimators"]["aims"];
+    run.scores["estimators"]["lio"]["ate_m"] = 0.1;
+    run.scores["estimators"]["lio"]["success"] = false;
+  }
+  const TextTable table = score_table(runs);
+  EXPECT_EQ(cells_of(table, 0, "ATE start m"), "0.300 (0.400)*") << "best of those with a success";
+  EXPECT_EQ(cells_of(table, 1, "ATE start m"), "0.100 (0.100) x");
+  EXPECT_NE(score_legend(runs, {}).find("x: a median over runs of which none succeeded"),
+            std::string::npos);
+}
+
+TEST(Validity, ASingleInvalidRunHasNoScoresInItsTable) {
+  const RunRecord fallen = record(3, 0.01, kFallen);
+  const auto row = score_table({&fallen, 1}).rows.at(0);
+  EXPECT_EQ(row.back(), "invalid run");
+  for (const std::string& cell : row) EXPECT_EQ(cell.find("0.01"), std::string::npos);
+}
+
+Scenario expecting(const Expectation& expectation) {
+  Scenario scenario;
+  scenario.name = "push";
+  scenario.expect = {expectation};
+  return scenario;
+}
+
+std::size_t undemanded(const Expectation& expectation, const std::vector<RunRecord>& runs) {
+  return undemanded_runs(runs, check_expectations(expecting(expectation), runs)).size();
+}
+
+TEST(Validity, AnExpectationOnTheRunItselfCanDemandAFall) {
+  const std::vector<RunRecord> fallen = {record(1, 0.1, kFallen), record(2, 0.1, kFallen)};
+  const std::vector<RunRecord> mixed = {record(1, 0.1, kFallen), record(2, 0.1, kFine)};
+  const Expectation fall = {"", "robot.fell", kNoLimit, 1.0};
+  EXPECT_EQ(undemanded(fall, fallen), 0U);
+  EXPECT_EQ(undemanded({"", "robot.valid", 0.0}, fallen), 0U);
+  EXPECT_EQ(undemanded(fall, mixed), 1U) << "it does not hold";
+  EXPECT_EQ(undemanded({"", "robot.fell", kNoLimit, 0.5, ExpectationStatistic::kMean}, mixed), 0U);
+  EXPECT_EQ(undemanded({"", "robot.fell", 1.0}, fallen), 2U) << "it allows, and demands nothing";
+  EXPECT_EQ(undemanded({"", "simulated_s", 60.0}, fallen), 2U);
+  EXPECT_EQ(undemanded({"aims", "success", kNoLimit, 0.0}, fallen), 2U);
+  const std::vector<RunRecord> lost = {record(1, 0.1, {{"fell", false}, {"end", "left_scene"}})};
+  EXPECT_EQ(undemanded(fall, lost), 1U);
+  EXPECT_EQ(undemanded({"", "robot.valid", 0.0}, lost), 0U);
+}
+
+TEST(Validity, ExpectationsOfEstimatorsAreOfValidRuns) {
+  const std::vector<RunRecord> runs = {record(1, 0.2, kFine), record(2, 9.0, kFallen)};
+  const Expectation limit = {"aims", "ate_m", 0.5};
+  Scenario scenario = expecting(limit);
+  scenario.run = {"aims"};
+  EXPECT_TRUE(check_expectations(scenario, runs).at(0).holds);
+  const auto none = check_expectations(scenario, std::span(runs).subspan(1)).at(0);
+  EXPECT_FALSE(none.holds);
+  EXPECT_FALSE(none.value);
+}
+
+}  // namespace
+}  // namespace aims

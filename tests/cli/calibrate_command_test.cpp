@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `aims calibrate` and --calibration, run as a user would.
+#include <gtest/gtest.h>
+
+#include "core/files/atomic_file.hpp"
+#include "tests/cli/command_line.hpp"
+
+namespace aims {
+namespace {
+
+using testing::Outcome;
+
+class Calibrate : public testing::CommandLine {};
+
+/// Legs of the default robot.
+constexpr const char* kRobot =
+    "schema: aims.robot_calibration/1\n"
+    "sensors:\n"
+    "  legs: {hip_x: 0.188, hip_y: 0.047, abduction: 0.08, thigh: 0.213, calf: 0.213,\n"
+    "         foot_radius: 0.022}\n"
+    "  lidar_translation: [0.03, 0, 0.16]\n"
+    "quantities:\n"
+    "  - {name: joint_compliance, entries: [c], values: [0.2], covariance: [0.01], used: true}\n";
+
+TEST_F(Calibrate, WritesWhatAShortWalkShows) {
+  scenario(testing::kMetreWalk);
+  const Outcome made = aims("calibrate my.yaml --robot-seed 3 --quiet -o robot.yaml");
+  ASSERT_EQ(made.exit_code, 0) << made.output;
+  EXPECT_TRUE(holds(made, "not observable")) << made.output;
+  const std::string file = read_file(folder_.path() / "robot.yaml").value();
+  EXPECT_NE(file.find("schema: aims.robot_calibration/1"), std::string::npos) << file;
+  EXPECT_NE(file.find("my seed 1"), std::string::npos) << file;
+  const Outcome again = aims("calibrate my.yaml --quiet -o robot.yaml");
+  EXPECT_EQ(again.exit_code, 2) << again.output;
+}
+
+TEST_F(Calibrate, ARunStartsFromTheFileAndAnotherRobotIsAWarning) {
+  scenario(testing::kMetreWalk);
+  write("robot.yaml", kRobot);
+  const std::string run = "run my.yaml --no-pictures --no-page --quiet --estimators aims_d ";
+  const Outcome used = aims(run + "--robot-seed 3 --calibration robot.yaml --out used");
+  EXPECT_EQ(used.exit_code, 0) << used.output;
+  EXPECT_FALSE(holds(used, "warning")) << used.output;
+  const std::string config = read_file(folder_.path() / "used" / "config.yaml").value();
+  EXPECT_NE(config.find("joint_compliance: [0.2, 0.01]"), std::string::npos) << config;
+  EXPECT_NE(config.find("robot_seed: 3"), std::string::npos) << config;
+  const Outcome other =
+      aims(run + "--set robot.legs.calf=0.23 --calibration robot.yaml --out other");
+  EXPECT_TRUE(holds(other, "is of another robot: legs of other dimensions")) << other.output;
+}
+
+TEST_F(Calibrate, AFileThatIsNoneIsOneError) {
+  scenario(testing::kMetreWalk);
+  for (const char* command : {"run my.yaml", "suite my.yaml", "estimate my.bag"}) {
+    const Outcome refused = aims(std::string(command) + " --calibration my.yaml --out out");
+    EXPECT_EQ(refused.exit_code, 2) << refused.output;
+    EXPECT_TRUE(holds(refused, "--calibration my.yaml:1")) << refused.output;
+  }
+  const Outcome legs = aims("run my.yaml --estimators leg --calibration none.yaml --out out");
+  EXPECT_TRUE(holds(legs, "none.yaml")) << legs.output;
+}
+
+}  // namespace
+}  // namespace aims

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `aims estimate` where sensors are missing or useless, run as a user would.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/files/atomic_file.hpp"
+#include "recordings/stream/recording_reader.hpp"
+#include "recordings/stream/recording_writer.hpp"
+#include "tests/cli/command_line.hpp"
+
+namespace aims {
+namespace {
+
+using testing::Outcome;
+
+class EstimateHealth : public testing::CommandLine {
+ protected:
+  EstimateHealth() {
+    const Outcome made =
+        aims("simulate " + scenario(testing::kMetreWalk) + " --quiet --out walk.bag");
+    EXPECT_EQ(made.exit_code, 0) << made.output;
+  }
+
+  std::size_t poses(const std::string& name) const {
+    const std::string text = read_file(folder_.path() / "out" / (name + ".tum")).value();
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+  }
+
+  /// useless.bag: walk.bag, whose specific forces are not numbers, and without a truth.
+  void write_useless_imu() const {
+    auto reader = RecordingReader::open(folder_.path() / "walk.bag", {});
+    ASSERT_TRUE(reader) << reader.error().message;
+    auto writer = RecordingWriter::create(folder_.path() / "useless.bag", reader->setup().rig, "");
+    ASSERT_TRUE(writer) << writer.error().message;
+    std::vector<Delivery> deliveries;
+    while (reader->advance(kSecond, deliveries).value_or(false)) {
+    }
+    for (Delivery& each : deliveries) {
+      if (auto* imu = std::get_if<ImuSample>(&each.measurement)) {
+        imu->specific_force.setConstant(std::numeric_limits<double>::quiet_NaN());
+        ASSERT_TRUE(writer->write_imu(ImuOutput::kMain, each.arrival, *imu));
+      } else if (const auto* legs = std::get_if<LegOdometrySample>(&each.measurement)) {
+        ASSERT_TRUE(writer->write_legs(each.arrival, *legs));
+      } else {
+        ASSERT_TRUE(writer->write_scan(each.arrival, *std::get<LidarScanPtr>(each.measurement)));
+      }
+    }
+    ASSERT_TRUE(writer->close());
+  }
+};
+
+TEST_F(EstimateHealth, WithoutALidarThereArePosesAndItIsSaid) {
+  const Outcome outcome = aims(
+      "estimate walk.bag --topics lidar=none --estimators aims_d,leg --no-pictures --no-page "
+      "--quiet --out out");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_GT(poses("aims_d"), 5U);
+  EXPECT_GT(poses("leg"), 5U);
+  EXPECT_TRUE(holds(outcome, "health: aims_d: degraded")) << outcome.output;
+  EXPECT_TRUE(holds(outcome, "no LiDAR scans")) << outcome.output;
+}
+
+TEST_F(EstimateHealth, AnAssumedTransformIsAWarningAtTheEndAndInTheHealth) {
+  const Outcome outcome = aims(
+      "estimate walk.bag --estimators leg --set recording.lidar_frame=nowhere --no-pictures "
+      "--quiet --out out");
+  const auto warned = outcome.output.find("warning: NO TRANSFORM from");
+  ASSERT_NE(warned, std::string::npos) << outcome.output;
+  EXPECT_GT(warned, outcome.output.find("estimator  ")) << "after the table";
+  const std::string rows = read_file(folder_.path() / "out" / "leg.health.csv").value();
+  EXPECT_EQ(rows.find(",healthy,"), std::string::npos) << rows;
+  EXPECT_NE(rows.find(",degraded,T_imu_lidar unknown"), std::string::npos) << rows;
+  EXPECT_TRUE(holds(outcome, "page: out/page.html")) << outcome.output;
+}
+
+TEST_F(EstimateHealth, AnEstimateWithoutPosesIsNoSuccess) {
+  write_useless_imu();
+  const Outcome outcome =
+      aims("estimate useless.bag --estimators aims --no-pictures --no-page --quiet --out out");
+  EXPECT_EQ(outcome.exit_code, 4) << outcome.output;
+  EXPECT_TRUE(holds(outcome, "aims: no poses")) << outcome.output;
+  EXPECT_TRUE(holds(outcome, "no IMU data")) << outcome.output;
+  const std::string health = read_file(folder_.path() / "out" / "aims.health.csv").value();
+  EXPECT_NE(health.find("invalid"), std::string::npos) << health;
+}
+
+}  // namespace
+}  // namespace aims
