@@ -27,6 +27,10 @@ constexpr double kNoiseDistance = 0.2;
 /// Deviations of its average by which information exceeds zero.
 constexpr double kConfidence = 3.0;
 
+/// Information of the averages over that of the present scan, at most, so that the walls of a
+/// corridor do not count for long after a bend, along the way of the next one.
+constexpr double kMostRemembered = 4.0;
+
 /// What is left of a real fraction when the share `free` of the information is none.
 double without(double free, double fraction) {
   return free < 1.0 ? std::clamp((fraction - free) / (1.0 - free), 0.0, 1.0) : 0.0;
@@ -68,6 +72,7 @@ void CrossValidatedInformation::add(const HalvesInformation& scan, const Eigen::
   within_ += gain * (position_information(scan.within) - within_);
   across_ += gain * (across - across_);
   sum_of_weights_ += gain * (weights - sum_of_weights_);
+  limit_averages(position_information(scan.within));
   const double square = weakest_axis_.dot(across * weakest_axis_) / (weights + kRegularization);
   const double tilt = tilt_of_noise(square, gain);
   update_fraction(shared_tilt.value_or(tilt));
@@ -90,6 +95,20 @@ double CrossValidatedInformation::tilt_of_noise(double square, double gain) {
     variance = (1.0 - gain) * (variance + gain * difference * difference);
   }
   return std::sqrt(std::min(kLimit, kConfidence * kOfAverage * std::sqrt(variance)));
+}
+
+/// Scales the averages on the axes of their information over that of the scan, both of the position
+/// [1/m^2], to `kMostRemembered` where it is more; the fractions of X to W stay on these axes.
+void CrossValidatedInformation::limit_averages(const Eigen::Matrix3d& of_scan) {
+  const Eigen::Matrix3d scan = of_scan + kRegularization * Eigen::Matrix3d::Identity();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> solver(within_, scan);
+  const Eigen::Array3d ratio = solver.eigenvalues();
+  if (ratio(2) <= kMostRemembered) return;
+  const Eigen::Array3d scale = (kMostRemembered / ratio.max(kMostRemembered)).sqrt();
+  const Eigen::Matrix3d& V = solver.eigenvectors();
+  const Eigen::Matrix3d limit = scan * V * scale.matrix().asDiagonal() * V.transpose();
+  within_ = (limit * within_ * limit.transpose()).eval();
+  across_ = (limit * across_ * limit.transpose()).eval();
 }
 
 void CrossValidatedInformation::update_fraction(double free_tilt) {

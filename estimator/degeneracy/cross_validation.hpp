@@ -75,6 +75,7 @@ class CrossValidatedInformation {
 
  private:
   double tilt_of_noise(double square, double gain);
+  void limit_averages(const Eigen::Matrix3d& of_scan);
   void update_fraction(double free_tilt);
 
   std::optional<Eigen::Vector3d> last_position_;

@@ -79,6 +79,22 @@ TEST(CrossValidatedInformation, FacesAcrossTheCorridorConstrainItsAxis) {
   EXPECT_LT((fraction.constrained() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
 }
 
+// An average that decays by e over 3 m would remember 300 faces for 27 m.
+TEST(CrossValidatedInformation, AfterABendThePreviousCorridorIsForgotten) {
+  RandomStream random(6, "cross_validation");
+  CrossValidatedInformation fraction;
+  int scans = 0;
+  const auto walk = [&](double distance, int facing) {
+    for (double way = 0.0; way < distance; way += kStep) {
+      fraction.add(scan_corridor(random, facing), Eigen::Vector3d(kStep * scans++, 0.0, 0.0));
+    }
+  };
+  walk(6.0, 300);
+  EXPECT_FALSE(fraction.leaves_direction_free());
+  walk(20.0, 0);
+  EXPECT_TRUE(fraction.leaves_direction_free());
+}
+
 TEST(CrossValidatedInformation, AppliesNothingAlongTheFreeDirection) {
   RandomStream random(3, "cross_validation");
   CrossValidatedInformation fraction;
