@@ -7,7 +7,20 @@
 
 namespace aims {
 
-XIcpLioConfig x_icp_on_lio() { return {.lio = eskf_preset("lio"), .x_icp = {}}; }
+XIcpLioConfig x_icp_published() {
+  XIcpLioConfig config{.lio = eskf_preset("lio"), .x_icp = {}};
+  config.lio.lidar.selection_voxel = 0.1;
+  config.lio.lidar.max_points = 10000;
+  return config;
+}
+
+XIcpLioConfig x_icp_in_corridor() {
+  XIcpLioConfig config = x_icp_published();
+  config.x_icp.high_information = 100.0;
+  config.x_icp.enough_information = 100.0;
+  config.x_icp.insufficient_information = 20.0;
+  return config;
+}
 
 DcRegLioConfig dcreg_on_lio() { return {.lio = eskf_preset("lio"), .dcreg = {}}; }
 

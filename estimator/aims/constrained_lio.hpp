@@ -19,8 +19,11 @@ struct DcRegLioConfig {
   DcRegConfig dcreg;
 };
 
+/// `lio` with a return per 10 cm instead of 25 cm, since X-ICP counts correspondences.
+XIcpLioConfig x_icp_published();
+/// The same with fewer correspondences per category: a corridor's doors and end wall have no more.
+XIcpLioConfig x_icp_in_corridor();
 /// With the settings of `lio`.
-XIcpLioConfig x_icp_on_lio();
 DcRegLioConfig dcreg_on_lio();
 
 /// The settings of `lio`, and those of the update in a group of their own.
