@@ -79,9 +79,9 @@ void judge(const std::vector<Row>& rows, int offset, const XIcpConfig& config,
     }
     const bool mixed = it.combined >= config.enough_information;
     if (it.combined >= config.high_information || it.strong >= config.enough_information) {
-      it.category = Localizability::kFull;
+      it.category = LocalizabilityCategory::kFull;
     } else if (mixed || it.strong >= config.insufficient_information) {
-      it.category = Localizability::kPartial;
+      it.category = LocalizabilityCategory::kPartial;
       it.sampled = sampled_step(rows, e, mixed ? minimal : strong);
     }
   }
@@ -94,7 +94,7 @@ Matrix6 soft_constraints(std::span<const LocalizedDirection> directions, double 
                          double unit) {
   Matrix6 damping = Matrix6::Zero();
   for (const LocalizedDirection& each : directions) {
-    if (each.category != Localizability::kNone) continue;
+    if (each.category != LocalizabilityCategory::kNone) continue;
     const double information = unit * weight * weight / std::max(each.eigenvalue, 1e-9);
     damping += information * each.direction * each.direction.transpose();
   }
@@ -143,8 +143,8 @@ PoseConstraints constraints_of(std::span<const LocalizedDirection> directions,
                                const Vector6& offset) {
   PoseConstraints constraints;
   for (const LocalizedDirection& each : directions) {
-    if (each.category == Localizability::kFull) continue;
-    const bool partial = each.category == Localizability::kPartial;
+    if (each.category == LocalizabilityCategory::kFull) continue;
+    const bool partial = each.category == LocalizabilityCategory::kPartial;
     const double value = partial ? each.direction.dot(offset) + each.sampled : 0.0;
     constraints.equal.push_back({each.direction, value, partial});
   }
@@ -165,9 +165,10 @@ RuledUpdate XIcp::fuse(const Belief& prior, const NominalState& linearization,
   }
   ScanVerdict verdict;
   for (std::size_t i = 0; i < directions.size(); ++i) {
-    const Localizability category = directions[i].category;
-    if (category == Localizability::kPartial) verdict.partial = true;
-    if (category == Localizability::kNone) (i < 3 ? verdict.rotation : verdict.translation) = true;
+    const LocalizabilityCategory category = directions[i].category;
+    if (category == LocalizabilityCategory::kPartial) verdict.partial = true;
+    if (category == LocalizabilityCategory::kNone)
+      (i < 3 ? verdict.rotation : verdict.translation) = true;
   }
   return {constrained_step(prior, linearization, scan, constraints), verdict};
 }

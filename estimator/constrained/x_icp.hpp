@@ -23,7 +23,7 @@ struct XIcpConfig {
 void describe(Fields& fields, XIcpConfig& config);
 
 /// Localizability of a direction, the categories of X-ICP.
-enum class Localizability {
+enum class LocalizabilityCategory {
   kNone,     ///< the update keeps the prediction
   kPartial,  ///< the contributing correspondences alone decide
   kFull,     ///< all correspondences decide
@@ -35,7 +35,7 @@ struct LocalizedDirection {
   double eigenvalue = 0.0;              ///< of the Hessian of unweighted correspondences
   double combined = 0.0;                ///< sum of the contributions that are no noise
   double strong = 0.0;                  ///< sum of the strong ones
-  Localizability category = Localizability::kNone;
+  LocalizabilityCategory category = LocalizabilityCategory::kNone;
   double sampled = 0.0;  ///< kPartial: step for which its contributing correspondences ask
 };
 

@@ -19,25 +19,25 @@ using test::corridor;
 using test::measurement_of;
 using test::room;
 
-constexpr int kMany = 400;  // points of a face
+constexpr int kMany = 1000;  // points of a face
 
-int count(const std::array<LocalizedDirection, 6>& all, Localizability category) {
+int count(const std::array<LocalizedDirection, 6>& all, LocalizabilityCategory category) {
   return static_cast<int>(std::ranges::count(all, category, &LocalizedDirection::category));
 }
 
 TEST(XIcp, APlainCorridorIsFreeAlongItselfOnly) {
   RandomStream random(1, "x_icp.test");
   const auto all = localizability(corridor(kMany, random), {});
-  EXPECT_EQ(count(all, Localizability::kNone), 1);
-  EXPECT_EQ(count(all, Localizability::kPartial), 0);
-  EXPECT_EQ(all[3].category, Localizability::kNone);
+  EXPECT_EQ(count(all, LocalizabilityCategory::kNone), 1);
+  EXPECT_EQ(count(all, LocalizabilityCategory::kPartial), 0);
+  EXPECT_EQ(all[3].category, LocalizabilityCategory::kNone);
   EXPECT_NEAR(std::abs(all[3].direction(3)), 1.0, 1e-9);
   EXPECT_NEAR(all[3].combined, 0.0, 1e-9);
 }
 
 TEST(XIcp, ARoomIsFreeNowhere) {
   RandomStream random(2, "x_icp.test");
-  EXPECT_EQ(count(localizability(room(kMany, random), {}), Localizability::kFull), 6);
+  EXPECT_EQ(count(localizability(room(kMany, random), {}), LocalizabilityCategory::kFull), 6);
 }
 
 TEST(XIcp, AFloorLeavesThreeDirections) {
@@ -46,10 +46,10 @@ TEST(XIcp, AFloorLeavesThreeDirections) {
   add_face(floor, 3 * kMany, {0.0, 0.0, -0.5}, {8.0, 0.0, 0.0}, {0.0, 8.0, 0.0},
            Eigen::Vector3d::UnitZ(), random);
   const auto all = localizability(floor, {});
-  EXPECT_EQ(count(all, Localizability::kNone), 3);
-  EXPECT_EQ(all[0].category, Localizability::kNone);
+  EXPECT_EQ(count(all, LocalizabilityCategory::kNone), 3);
+  EXPECT_EQ(all[0].category, LocalizabilityCategory::kNone);
   EXPECT_NEAR(std::abs(all[0].direction(2)), 1.0, 1e-9) << "yaw";
-  EXPECT_EQ(all[5].category, Localizability::kFull) << "height";
+  EXPECT_EQ(all[5].category, LocalizabilityCategory::kFull) << "height";
 }
 
 TEST(XIcp, ATunnelIsFreeAlongAndAboutItsAxis) {
@@ -61,7 +61,7 @@ TEST(XIcp, ATunnelIsFreeAlongAndAboutItsAxis) {
     tunnel.push_back({2.0 * n + random.uniform(-9.0, 9.0) * Eigen::Vector3d::UnitX(), n, n, 0.0});
   }
   const auto all = localizability(tunnel, {});
-  EXPECT_EQ(count(all, Localizability::kNone), 2);
+  EXPECT_EQ(count(all, LocalizabilityCategory::kNone), 2);
   EXPECT_NEAR(std::abs(all[0].direction(0)), 1.0, 1e-3);
   EXPECT_NEAR(std::abs(all[3].direction(3)), 1.0, 1e-3);
 }
@@ -75,16 +75,17 @@ TEST(XIcp, NoiseOfNormalsDoesNotContribute) {
         (each.normal + random.uniform(-0.15, 0.15) * Eigen::Vector3d::UnitX()).normalized();
     each.normal_in_body = each.normal;
   }
-  EXPECT_EQ(localizability(scan, {})[3].category, Localizability::kNone);
-  EXPECT_EQ(localizability(scan, {.minimal_angle_deg = 90.0})[3].category, Localizability::kFull);
+  EXPECT_EQ(localizability(scan, {})[3].category, LocalizabilityCategory::kNone);
+  EXPECT_EQ(localizability(scan, {.minimal_angle_deg = 90.0})[3].category,
+            LocalizabilityCategory::kFull);
 }
 
 TEST(XIcp, CategoriesFollowTheSumOfContributions) {
   RandomStream random(6, "x_icp.test");
-  for (const auto& [points, expected] : {std::pair{149, Localizability::kNone},
-                                         {151, Localizability::kPartial},
-                                         {299, Localizability::kPartial},
-                                         {301, Localizability::kFull}}) {
+  for (const auto& [points, expected] : {std::pair{149, LocalizabilityCategory::kNone},
+                                         {151, LocalizabilityCategory::kPartial},
+                                         {299, LocalizabilityCategory::kPartial},
+                                         {301, LocalizabilityCategory::kFull}}) {
     Correspondences scan = corridor(kMany, random);
     add_end_wall(scan, points, random);
     const LocalizedDirection ahead = localizability(scan, {})[3];
@@ -114,7 +115,7 @@ TEST(XIcp, ResampledCorrespondencesAskForTheDisplacement) {
   Correspondences scan = corridor(kMany, random);
   add_end_wall(scan, 200, random, error);
   const LocalizedDirection ahead = localizability(scan, {})[3];
-  ASSERT_EQ(ahead.category, Localizability::kPartial);
+  ASSERT_EQ(ahead.category, LocalizabilityCategory::kPartial);
   EXPECT_NEAR(ahead.sampled * ahead.direction(3), -0.04, 1e-9);
   Vector6 offset = Vector6::Zero();
   offset(3) = 0.1;
@@ -164,10 +165,10 @@ TEST(XIcp, SoftConstraintsShrinkTheStep) {
            random, error);
   XIcpConfig soft{.insufficient_information = 250.0, .soft_weight = 100.0};
   const LocalizedDirection ahead = localizability(scan, soft)[3];
-  ASSERT_EQ(ahead.category, Localizability::kNone);
+  ASSERT_EQ(ahead.category, LocalizabilityCategory::kNone);
   const RuledUpdate update = XIcp(soft).fuse(prior, prior.state, measurement_of(scan, 1.0), scan);
   const double ratio = ahead.eigenvalue / (ahead.eigenvalue + 1e4 / ahead.eigenvalue);
-  EXPECT_NEAR(update.belief.state.position.x(), -0.01 * ratio, 1e-5);
+  EXPECT_NEAR(update.belief.state.position.x(), -0.01 * ratio, 1e-4);
   EXPECT_NEAR(ahead.eigenvalue, 200.0, 0.5);
 }
 
