@@ -30,7 +30,7 @@ constexpr std::array<LinePattern, 4> kPatterns = {LinePattern::kSolid, LinePatte
                                                   LinePattern::kDashDotted, LinePattern::kDotted};
 
 /// Styles of the estimators; a published preset has the colour of its system.
-constexpr std::array<std::pair<std::string_view, std::size_t>, 21> kOfEstimators = {{
+constexpr std::array<std::pair<std::string_view, std::size_t>, 24> kOfEstimators = {{
     {"aims_d", 0},
     {"aims", 1},
     {"tfs_plus", 2},
@@ -52,6 +52,9 @@ constexpr std::array<std::pair<std::string_view, std::size_t>, 21> kOfEstimators
     {"loam_published", 21},
     {"lego_loam_published", 22},
     {"lins_published", 23},
+    {"x_icp_published", 12},
+    {"x_icp", 15},
+    {"dcreg", 16},
 }};
 
 std::optional<std::size_t> fixed_style(std::string_view name) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "estimator/aims/constrained_lio.hpp"
 #include "estimator/aims/eskf_estimator.hpp"
 #include "estimator/aims/leg_dead_reckoning.hpp"
 #include "estimator/aims/presets.hpp"
@@ -62,6 +63,13 @@ void add_baselines(std::vector<EstimatorEntry>& all) {
   all.push_back(entry<lio_sam::LioSam>(
       "lio_sam_published", "LIO-SAM with its published defaults", [] { return lio_sam::Config(); },
       "lio_sam"));
+  all.push_back(entry<ConstrainedLio>(
+      "x_icp", "lio with the update of X-ICP, set for a narrow corridor", x_icp_in_corridor));
+  all.push_back(entry<ConstrainedLio>("x_icp_published",
+                                      "lio with the update of X-ICP and its published thresholds",
+                                      x_icp_published, "x_icp"));
+  all.push_back(entry<ConstrainedLio>(
+      "dcreg", "lio with the update of DCReg: preconditioned by Schur complements", dcreg_on_lio));
 }
 
 std::vector<EstimatorEntry> entries() {

@@ -40,12 +40,13 @@ LegStatesConfig leg_states_of(const EskfConfig& config) {
 
 }  // namespace
 
-EskfEstimator::EskfEstimator(const EskfConfig& config, const SensorRig& rig)
+EskfEstimator::EskfEstimator(const EskfConfig& config, const SensorRig& rig,
+                             std::unique_ptr<const ScanRule> rule)
     : config_(config),
       rig_(rig),
       queue_(config_.queue, config_.imu, rig.imu_rate_hz, max_leg_speed(config_)),
       points_(config_.lidar, config_.map, rig.T_body_lidar.translation),
-      lidar_update_(config_),
+      lidar_update_(config_, std::move(rule)),
       leg_free_(config_.imu),
       map_(config_.map),
       ground_(config_.ground_constraint),
@@ -178,6 +179,13 @@ void EskfEstimator::record_scan(ScanDiagnostics& diagnostics) {
   result_.diagnostics.scans.push_back(row_of(diagnostics));
 }
 
+void EskfEstimator::count_scan(const ScanDiagnostics& diagnostics) {
+  if (diagnostics.relocated) ++result_.counts["lidar.relocated"];
+  if (diagnostics.verdict.rotation) ++result_.counts["lidar.unconstrained_rotation"];
+  if (diagnostics.verdict.translation) ++result_.counts["lidar.unconstrained_translation"];
+  if (diagnostics.verdict.partial) ++result_.counts["lidar.partly_constrained"];
+}
+
 /// Fuses the prepared points, and learns from the correction how noisy the IMU is.
 void EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
   const Belief predicted = belief_;
@@ -189,7 +197,7 @@ void EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
     ++result_.counts["lidar.no_update"];
     return;
   }
-  if (diagnostics.relocated) ++result_.counts["lidar.relocated"];
+  count_scan(diagnostics);
   if (mapping_) accept(belief_, lidar_update_.update_with_real_part(belief_, map_));
   const double since_last = last_scan_ ? to_seconds(time_ - *last_scan_) : 0.0;
   accept(belief_, robot_.after_scan(predicted, belief_, since_last));

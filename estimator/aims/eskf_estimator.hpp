@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -29,7 +30,9 @@ namespace aims {
 /// own stamps, the LiDAR at the end of each scan.
 class EskfEstimator : public Estimator, public MotionSource {
  public:
-  EskfEstimator(const EskfConfig& config, const SensorRig& rig);
+  /// `rule`: of LidarUpdate.
+  EskfEstimator(const EskfConfig& config, const SensorRig& rig,
+                std::unique_ptr<const ScanRule> rule = nullptr);
 
   void consume(const Delivery& delivery) override;
   void finish() override;
@@ -64,6 +67,7 @@ class EskfEstimator : public Estimator, public MotionSource {
   void fuse_standing(const Eigen::Vector3d& rate);
   void prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics);
   void fuse_scan(ScanDiagnostics& diagnostics);
+  void count_scan(const ScanDiagnostics& diagnostics);
   ScanDiagnostics diagnostics_of_prediction();
   void record_scan(ScanDiagnostics& diagnostics);
   void apply_calibration();

@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "estimator/aims/leg_free_prediction.hpp"
 #include "estimator/lidar/drift_search.hpp"
@@ -81,8 +82,9 @@ Eigen::Matrix3d across_the_way(const NominalState& state) {
 
 }  // namespace
 
-LidarUpdate::LidarUpdate(const EskfConfig& config)
-    : max_iterations_(config.lidar.max_iterations),
+LidarUpdate::LidarUpdate(const EskfConfig& config, std::unique_ptr<const ScanRule> rule)
+    : rule_(std::move(rule)),
+      max_iterations_(config.lidar.max_iterations),
       degeneracy_(config.degeneracy),
       cross_validation_(config.cross_validation),
       measures_legs_(measures_legs(config)),
@@ -127,8 +129,18 @@ Belief LidarUpdate::fuse_velocity(const Belief& belief, const LinearMeasurement&
   return considers_legs() ? fuse_given_legs(belief, velocity, mask) : fuse(belief, velocity, mask);
 }
 
+/// One step from `at`, where the scan is linearized.
+Belief LidarUpdate::fused_with(const Belief& prior, const NominalState& at,
+                               const Linearization& scan) {
+  if (!rule_) return fuse(prior, at, scan.measurement, scan.mask);
+  const auto matches = matcher_.correspondences(scan_pose(at, calibration_));
+  RuledUpdate update = rule_->fuse(prior, at, scan.measurement, matches);
+  verdict_ = update.verdict;
+  return update.belief;
+}
+
 /// One step with every fifth point. Its result is so close to the final one that the planes of all
-/// points are searched only once.
+/// points are searched only once. A rule judges by how many points there are, so it has none.
 NominalState LidarUpdate::first_guess(const Belief& predicted,
                                       std::span<const Eigen::Vector3f> points, const VoxelMap& map,
                                       ScanDiagnostics& diagnostics) {
@@ -137,7 +149,7 @@ NominalState LidarUpdate::first_guess(const Belief& predicted,
   matcher_.match(pose, points, map, kGuessStride);
   scan_ = matcher_.linearize(pose);
   diagnostics.residual_sigma_prior = std::sqrt(residual_statistics(matcher_.residuals()).variance);
-  if (scan_.used < kMinMatches) return at;
+  if (scan_.used < kMinMatches || rule_) return at;
   const Linearization guess = fused(part_, 1.0, at);
   return fuse(predicted, at, guess.measurement, guess.mask).state;
 }
@@ -195,7 +207,10 @@ IteratedUpdate LidarUpdate::trial(const Belief& predicted, std::span<const Eigen
   const auto step_of = [&](const NominalState& before, const NominalState& after) {
     return step_between(scan_pose(before, calibration_), scan_pose(after, calibration_));
   };
-  return iterated_update(predicted, start, max_iterations_, linearize, step_of);
+  const auto fuse_at = [&](const Belief& prior, const NominalState& at, const Linearization& scan) {
+    return fused_with(prior, at, scan);
+  };
+  return iterated_update(predicted, start, max_iterations_, linearize, step_of, fuse_at);
 }
 
 void LidarUpdate::assess(const Belief& predicted, const NominalState& trial_state,
@@ -271,7 +286,8 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
     if (leg_free != nullptr) diagnostics.C_IL_imu = leg_free_consistency(*leg_free, at);
     assess(predicted, at, diagnostics);
     const Linearization weighed = fused(part_, gamma_lidar_, at);
-    belief = fuse(predicted, at, weighed.measurement, weighed.mask);
+    belief = fused_with(predicted, at, weighed);
+    diagnostics.verdict = verdict_;
     matcher_.learn_noise();
     if (part_ == ScanPart::kReal || !cross_validation_.enabled) {
       update_map_covariance(map, belief.state, predicted, belief);

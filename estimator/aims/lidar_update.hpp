@@ -2,11 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <span>
 
 #include "estimator/aims/config.hpp"
 #include "estimator/aims/scan_diagnostics.hpp"
+#include "estimator/constrained/scan_rule.hpp"
 #include "estimator/degeneracy/cross_validation.hpp"
 #include "estimator/degeneracy/degeneracy.hpp"
 #include "estimator/filter/kalman_update.hpp"
@@ -30,7 +32,8 @@ enum class ScanPart {
 /// is noise of its planes, can be left out.
 class LidarUpdate {
  public:
-  explicit LidarUpdate(const EskfConfig& config);
+  /// `rule`: the update of the filter with a scan in place of the plain one; null: the plain one.
+  explicit LidarUpdate(const EskfConfig& config, std::unique_ptr<const ScanRule> rule = nullptr);
 
   /// The belief after fusing `points` (body axes at the time of the belief) with `map`. Fills the
   /// index, weights and statistics of `diagnostics`. With too few planes at any linearization, the
@@ -74,6 +77,7 @@ class LidarUpdate {
   std::optional<double> shared_tilt() const;
   GainMask scan_mask(const NominalState& state) const;
   Linearization fused(ScanPart part, double gamma, const NominalState& state) const;
+  Belief fused_with(const Belief& prior, const NominalState& at, const Linearization& scan);
   NominalState first_guess(const Belief& predicted, std::span<const Eigen::Vector3f> points,
                            const VoxelMap& map, ScanDiagnostics& diagnostics);
   NominalState match_along_drift(const Belief& predicted, const NominalState& guess,
@@ -88,13 +92,15 @@ class LidarUpdate {
   void update_map_covariance(const VoxelMap& map, const NominalState& matching,
                              const Belief& predicted, const Belief& updated);
 
-  int max_iterations_;            ///< of the trial update
-  int scans_ = 0;                 ///< so far
-  CalibrationModel calibration_;  ///< of the present scan
-  ScanPart part_;                 ///< of it that update() fuses
-  MatchInformation scan_;         ///< the present scan at the last linearization
-  NominalState predicted_;        ///< for it, by the belief of update()
-  NominalState matched_at_;       ///< where its matches were linearized last
+  std::unique_ptr<const ScanRule> rule_;  ///< null: the plain update
+  ScanVerdict verdict_;                   ///< of the rule, in the last step
+  int max_iterations_;                    ///< of the trial update
+  int scans_ = 0;                         ///< so far
+  CalibrationModel calibration_;          ///< of the present scan
+  ScanPart part_;                         ///< of it that update() fuses
+  MatchInformation scan_;                 ///< the present scan at the last linearization
+  NominalState predicted_;                ///< for it, by the belief of update()
+  NominalState matched_at_;               ///< where its matches were linearized last
   DegeneracyConfig degeneracy_;
   CrossValidationConfig cross_validation_;
   bool measures_legs_;  ///< the real part holds nothing along the way

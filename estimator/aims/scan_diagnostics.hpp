@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/time.hpp"
+#include "estimator/constrained/scan_rule.hpp"
 #include "estimator/diagnostics.hpp"
 #include "estimator/filter/imu_noise.hpp"
 
@@ -53,6 +54,7 @@ struct ScanDiagnostics {
       Eigen::Vector3d::Constant(kNotComputed);  ///< correction of the mount, rotation vector [rad]
   PoseCovariance covariance;                    ///< after the update
   bool relocated = false;                       ///< the scan was matched elsewhere than predicted
+  ScanVerdict verdict;                          ///< of a ScanRule
 };
 
 /// The series that the filter reports: name, unit and meaning of each member above.

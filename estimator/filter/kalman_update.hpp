@@ -108,10 +108,11 @@ struct IteratedUpdate {
 /// The iterated update: up to `max_iterations` steps, more while they are large, the first
 /// linearized at `start`, each other at the result of the last. `linearize(state)` returns the
 /// measurement there (std::optional<Linearization>), empty to refuse it: then the prior stays.
-/// `step_of(before, after)` returns the Step between two states.
-template <class Linearize, class StepOf>
+/// `step_of(before, after)` returns the Step between two states, and `fuse_at(prior, state, at)` the
+/// belief after one step with that Linearization.
+template <class Linearize, class StepOf, class FuseAt>
 IteratedUpdate iterated_update(const Belief& prior, const NominalState& start, int max_iterations,
-                               Linearize&& linearize, StepOf&& step_of) {
+                               Linearize&& linearize, StepOf&& step_of, FuseAt&& fuse_at) {
   IteratedUpdate update{prior};
   const auto goes_on = [&](Step last) {
     if (last == Step::kLarge) return update.iterations < kMaxSteps;
@@ -122,12 +123,23 @@ IteratedUpdate iterated_update(const Belief& prior, const NominalState& start, i
     const NominalState before = update.iterations == 0 ? start : update.belief.state;
     const std::optional<Linearization> at = linearize(before);
     if (!at) return {prior, update.iterations, false, true};
-    update.belief = fuse(prior, before, at->measurement, at->mask);
+    update.belief = fuse_at(prior, before, *at);
     ++update.iterations;
     last = step_of(before, update.belief.state);
   }
   update.converged = last == Step::kConverged;
   return update;
+}
+
+/// The same with fuse().
+template <class Linearize, class StepOf>
+IteratedUpdate iterated_update(const Belief& prior, const NominalState& start, int max_iterations,
+                               Linearize&& linearize, StepOf&& step_of) {
+  const auto fuse_at = [](const Belief& belief, const NominalState& state,
+                          const Linearization& at) {
+    return fuse(belief, state, at.measurement, at.mask);
+  };
+  return iterated_update(prior, start, max_iterations, linearize, step_of, fuse_at);
 }
 
 }  // namespace aims

@@ -34,6 +34,13 @@ PlaneRow aligned(PlaneRow row, const PlaneRow& other) {
   return {-row.residual, -row.jacobian};
 }
 
+/// Whether both rows of a match, `b` aligned to `a`, are within the gates; `sigma` is the deviation
+/// of a residual [m].
+bool is_accepted(const PlaneRow& a, const PlaneRow& b, double sigma) {
+  return std::abs(0.5 * (a.residual + b.residual)) <= kMaxResidual &&
+         !(std::abs(a.residual - b.residual) > kMaxDisagreement * sigma);
+}
+
 /// Sums over the rows of both halves: with s = j_a + j_b, d = j_a - j_b and the residuals alike,
 /// the sums of j_a j_a^T + j_b j_b^T and of j_a j_b^T + j_b j_a^T are half the sum and half the
 /// difference of those of s s^T and d d^T.
@@ -101,8 +108,7 @@ MatchInformation ScanMatcher::linearize(const Pose& T_odom_body) {
     const PlaneRow a = plane_row(match.planes.a, match.p_body, R, t);
     const PlaneRow b = aligned(plane_row(match.planes.b, match.p_body, R, t), a);
     const double residual = 0.5 * (a.residual + b.residual);
-    if (!(std::abs(residual) <= kMaxResidual)) continue;
-    if (std::abs(a.residual - b.residual) > kMaxDisagreement * match.sigma) continue;
+    if (!is_accepted(a, b, match.sigma)) continue;
     const double ratio = robust_ ? residual / match.scale : 0.0;
     const double weight = 1.0 / (correlated_points_ * match.sigma * match.sigma);
     sum.add(a, b, weight / (1.0 + ratio * ratio));  // Cauchy
@@ -110,6 +116,23 @@ MatchInformation ScanMatcher::linearize(const Pose& T_odom_body) {
     incident_residuals_.push_back({residual, match.cosine});
   }
   return {sum.halves(), static_cast<int>(residuals_.size())};
+}
+
+std::vector<Correspondence> ScanMatcher::correspondences(const Pose& T_odom_body) const {
+  std::vector<Correspondence> accepted;
+  accepted.reserve(matches_.size());
+  const Eigen::Matrix3d R = T_odom_body.R();
+  for (const Match& match : matches_) {
+    const PlaneRow a = plane_row(match.planes.a, match.p_body, R, T_odom_body.translation);
+    const PlaneRow b =
+        aligned(plane_row(match.planes.b, match.p_body, R, T_odom_body.translation), a);
+    const double residual = 0.5 * (a.residual + b.residual);
+    if (!is_accepted(a, b, match.sigma)) continue;
+    const Vector6 jacobian = 0.5 * (a.jacobian + b.jacobian);
+    const Eigen::Vector3d normal = segment(jacobian, ErrorState::kPosition);
+    accepted.push_back({match.p_body, normal, R.transpose() * normal, residual});
+  }
+  return accepted;
 }
 
 Agreement ScanMatcher::agreement(const Pose& T_odom_body, const Eigen::Vector3d& axis) const {

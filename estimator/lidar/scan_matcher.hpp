@@ -29,6 +29,14 @@ struct Agreement {
   int facing = 0;  ///< those whose planes face along the axis that is in question
 };
 
+/// An accepted match: a point and what its planes have in common.
+struct Correspondence {
+  Eigen::Vector3d point;           ///< body axes [m]
+  Eigen::Vector3d normal;          ///< mean of both planes' normals, odometry axes
+  Eigen::Vector3d normal_in_body;  ///< the same
+  double residual;                 ///< mean of both planes' [m]
+};
+
 /// Matches the points of a scan with the planes of the map and linearizes eq. (2).
 class ScanMatcher {
  public:
@@ -51,6 +59,9 @@ class ScanMatcher {
 
   /// Sums the rows of the matches within the residual gate at `T_odom_body`.
   MatchInformation linearize(const Pose& T_odom_body);
+
+  /// The matches within the residual gate at `T_odom_body`.
+  std::vector<Correspondence> correspondences(const Pose& T_odom_body) const;
 
   /// From now on a Cauchy kernel weighs each residual by its own deviation.
   void start_robust_weights() { robust_ = kernel_.enabled; }
