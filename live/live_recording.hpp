@@ -16,8 +16,8 @@ namespace aims {
 struct LiveRecordingOptions {
   Duration settle = 3 * kSecond;    ///< gathered before topics, units and extrinsics are decided
   double patience = 0.0;            ///< timeout without the needed topics [s]; 0: none
-  Duration max_wait = kSecond / 5;  ///< of a cloud, once the estimator has caught up
-  LiveSource::Observer observer;    ///< sees the messages that are read; none: nobody
+  Duration max_wait = kSecond / 20;  ///< of a cloud, once the estimator has caught up
+  LiveSource::Observer observer;    ///< sees all messages of the gathered topics; none: nobody
   ClockWatch* clocks = nullptr;     ///< once it is broken, reading ends
 };
 
@@ -25,7 +25,7 @@ struct LiveRecordingOptions {
 using SetupCheck = std::function<Result<void>(const RecordingSetup& setup)>;
 
 /// Gathers all topics of the network until topics, units and extrinsics can be decided as for a bag
-/// and `check_setup` passes; then only those that are used. Meanwhile `waiting` is called every few
+/// and `check_setup` passes; then, without an observer, only those that are used. Meanwhile `waiting` is called every few
 /// seconds with what is missing. Reading ends when the node is asked to end or to start anew. Error
 /// when the node is asked to end before, or after the timeout.
 Result<RecordingReader> open_live_recording(Transport& transport, Commands& commands,
