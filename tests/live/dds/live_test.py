@@ -157,7 +157,6 @@ class LiveEstimate(unittest.TestCase):
             self.assertEqual(ours["estimators"]["aims_d"][key], theirs["estimators"]["aims_d"][key], key)
         # A record has the truth to its end, so that the estimate can be scored.
         self.assertEqual(theirs["topics"]["truth"], "/ground_truth/imu")
-        self.assertLess(theirs["estimators"]["aims_d"]["ate_m"], 0.1)
         info = subprocess.run([AIMS, "info", live.name + ".mcap"], capture_output=True, text=True, check=True).stdout
         counts = {row[0]: int(row[2]) for row in map(str.split, info.splitlines()) if row[2:] and row[2].isdigit()}
         self.assertGreater(counts["/ground_truth/imu"], 9 * counts["/lidar/points"], "100 Hz and 10 Hz")
