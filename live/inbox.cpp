@@ -32,9 +32,9 @@ std::optional<LiveMessage> Inbox::pop() {
   while (!messages_.empty()) {
     LiveMessage message = std::move(messages_.front());
     messages_.pop_front();
-    const bool replaced =
-        std::any_of(messages_.begin(), messages_.end(),
-                    [&](const auto& waiting) { return replaces(waiting, message); });
+    const bool replaced = std::any_of(messages_.begin(), messages_.end(), [&](const auto& waiting) {
+      return replaces(waiting, message);
+    });
     if (!replaced) return message;
     ++dropped_;
   }

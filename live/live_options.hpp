@@ -22,8 +22,8 @@ struct LiveOptions {
   std::string odom_frame = "odom";  ///< of the published poses
   std::string body_frame = "imu";   ///< child frame: the IMU's
   bool tf = false;                  ///< also publish odom_frame -> body_frame on /tf
-  double settle = 3.0;    ///< time gathered before topics, units and extrinsics are decided [s]
-  double patience = 0.0;  ///< timeout without the needed topics [s]; 0: none
+  double settle = 3.0;     ///< time gathered before topics, units and extrinsics are decided [s]
+  double patience = 0.0;   ///< timeout without the needed topics [s]; 0: none
   double max_wait = 0.05;  ///< a cloud that has waited longer is dropped for a newer one [s]
   // Of DDS alone.
   std::optional<std::uint32_t> domain;  ///< none: $ROS_DOMAIN_ID, or 0

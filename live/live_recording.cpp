@@ -92,8 +92,8 @@ class Gathering {
   std::set<std::string> subscribed_;
 };
 
-/// Waits for messages. Clouds may wait no longer than `max_wait` once none is waiting, at the latest
-/// after `kCatchUp`: before, the estimator catches up with what was gathered.
+/// Waits for messages. Clouds may wait no longer than `max_wait` once none is waiting, at the
+/// latest after `kCatchUp`: before, the estimator catches up with what was gathered.
 LiveSource::Wait waiting_for(Transport& transport, Commands& commands, Duration max_wait) {
   return [&transport, &commands, max_wait, late = true,
           first = std::optional<Time>()]() mutable -> std::optional<LiveMessage> {

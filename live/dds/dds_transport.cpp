@@ -34,8 +34,8 @@ std::atomic<bool> end_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 void request_end(int) { end_requested = true; }
 
-/// Asks the kernel for a receive buffer that holds a cloud; by default CycloneDDS asks for 1 MB, and
-/// what does not fit is sent again, late. What CYCLONEDDS_URI says takes precedence.
+/// Asks the kernel for a receive buffer that holds a cloud; by default CycloneDDS asks for 1 MB,
+/// and what does not fit is sent again, late. What CYCLONEDDS_URI says takes precedence.
 void ask_for_buffer() {
   constexpr const char* kVariable = "CYCLONEDDS_URI";
   const std::string buffer =

@@ -21,9 +21,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kPatience = std::chrono::milliseconds(50);  ///< between looks at the network
-constexpr double kDelay = 1.0;     ///< for subscribers to find the topics [s]
+constexpr double kDelay = 1.0;         ///< for subscribers to find the topics [s]
 constexpr double kReportPeriod = 5.0;  ///< [s]
-constexpr double kLastWait = 5.0;  ///< for subscribers to take the last messages [s]
+constexpr double kLastWait = 5.0;      ///< for subscribers to take the last messages [s]
 
 /// Sends each message when it is due.
 class PacedSink final : public MessageSink {

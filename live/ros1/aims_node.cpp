@@ -12,7 +12,8 @@ namespace {
 constexpr const char* kProgram = "aims_node";
 
 int main_of(int argc, char** argv) {
-  const auto command = parse_live_arguments(Ros1Transport::own_arguments(argc, argv), LiveNetwork::kRos1);
+  const auto command =
+      parse_live_arguments(Ros1Transport::own_arguments(argc, argv), LiveNetwork::kRos1);
   if (!command) return report_bad_input(kProgram, command.error().message);
   if (!command->help.empty()) {
     print_line(command->help);

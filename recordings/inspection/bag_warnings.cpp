@@ -58,8 +58,8 @@ void warn_of_recorder(const BagInfo& info, std::vector<std::string>& out) {
   }
 }
 
-/// The IMU that is read, else the LiDAR. An offset of stamps from record times that sensors share is
-/// the recorder's clock, which no delay of a sensor corrects.
+/// The IMU that is read, else the LiDAR. An offset of stamps from record times that sensors share
+/// is the recorder's clock, which no delay of a sensor corrects.
 const TopicInfo* reference_of(const BagInfo& info) {
   for (const std::string& topic : {info.used.imu, info.used.lidar}) {
     const TopicInfo* found = info.find(topic);

@@ -46,7 +46,7 @@ TEST(Inbox, DropsACloudThatHasWaitedTwoSecondsForANewerOneOfItsTopic) {
 /// A node that takes messages when it has time for them, of a LiDAR at 10 Hz and an IMU at 200 Hz.
 struct BusyNode {
   Inbox inbox;
-  int sent = 0;  ///< steps of 5 ms
+  int sent = 0;              ///< steps of 5 ms
   std::vector<double> ages;  ///< [s] of the clouds when they were started
   std::size_t imu = 0;
 

@@ -104,9 +104,8 @@ TEST_F(LiveSourceTest, ShowsAnObserverAllThatIsHeardInOrderAndReturnsWhatIsSelec
   const std::array<std::string, 1> topics = {"/a"};
   source.select(topics);
   std::vector<int> observed;
-  source.go_live([&](const BagMessage& seen) {
-    observed.push_back(static_cast<int>(seen.data[0]));
-  });
+  source.go_live(
+      [&](const BagMessage& seen) { observed.push_back(static_cast<int>(seen.data[0])); });
   EXPECT_EQ(values_of(source), (std::vector{1, 3, 5}));
   EXPECT_EQ(observed, (std::vector{1, 2, 3, 4, 5}));
 }
