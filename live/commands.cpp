@@ -15,6 +15,8 @@
 namespace aims {
 namespace {
 
+constexpr double kSilence = 1.0;  ///< [s]
+
 std::atomic<bool> signalled_save{false};
 std::atomic<bool> signalled_calibrate{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
@@ -46,7 +48,18 @@ std::optional<LiveMessage> Commands::wait(double seconds) {
     message = transport_.wait(0.0);
   }
   take_signals();
+  note_silence(!message);
   return message;
+}
+
+void Commands::note_silence(bool silent) {
+  if (!silent) {
+    since_message_ = Stopwatch();
+    told_ = 0.0;
+  } else if (silence_ && since_message_.seconds() > told_ + kSilence) {
+    told_ = since_message_.seconds();
+    silence_(told_);
+  }
 }
 
 void Commands::take_signals() {

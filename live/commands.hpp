@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "core/stopwatch.hpp"
 #include "live/transport.hpp"
 
 namespace aims {
@@ -32,16 +33,22 @@ class Commands {
   std::optional<LiveRequest> take_restart();
   /// What saves the map, called by `wait`; empty: there is no map yet.
   void on_save_map(std::function<void()> save) { save_ = std::move(save); }
+  /// What is told each second in which no message comes, how long none came [s]; empty: nobody.
+  void on_silence(std::function<void(double)> tell) { silence_ = std::move(tell); }
 
  private:
   void take(const LiveMessage& message);
   void take_signals();
   void save_map() const;
+  void note_silence(bool silent);
 
   Transport& transport_;
   std::string topic_;
   std::optional<LiveRequest> restart_;
   std::function<void()> save_;
+  std::function<void(double)> silence_;
+  Stopwatch since_message_;
+  double told_ = 0.0;  ///< of the silence [s]
 };
 
 }  // namespace aims

@@ -6,24 +6,39 @@
 
 namespace aims {
 
+/// Whether `newer` replaces `older`, which waits.
+bool Inbox::replaces(const LiveMessage& newer, const LiveMessage& older) const {
+  return newer.connection == older.connection && newer.data.size() >= kLargeSize &&
+         older.data.size() >= kLargeSize && newest_ - older.arrival > max_wait_large_;
+}
+
 void Inbox::push(LiveMessage message) {
-  const std::int64_t now = message.arrival;
+  newest_ = message.arrival;
+  const std::size_t before = messages_.size();
+  if (message.data.size() >= kLargeSize) {
+    const auto kept = std::remove_if(messages_.begin(), messages_.end(), [&](const auto& waiting) {
+      return replaces(message, waiting);
+    });
+    messages_.erase(kept, messages_.end());
+  }
+  while (!messages_.empty() && newest_ - messages_.front().arrival > kMaxWaitSmall) {
+    messages_.pop_front();
+  }
+  dropped_ += before - messages_.size();
   messages_.push_back(std::move(message));
-  if (now - messages_.front().arrival <= max_wait_large_) return;
-  const auto kept =
-      std::remove_if(messages_.begin(), messages_.end(), [this, now](const auto& waiting) {
-        const bool large = waiting.data.size() >= kLargeSize;
-        return now - waiting.arrival > (large ? max_wait_large_ : kMaxWaitSmall);
-      });
-  dropped_ += static_cast<std::size_t>(messages_.end() - kept);
-  messages_.erase(kept, messages_.end());
 }
 
 std::optional<LiveMessage> Inbox::pop() {
-  if (messages_.empty()) return std::nullopt;
-  LiveMessage message = std::move(messages_.front());
-  messages_.pop_front();
-  return message;
+  while (!messages_.empty()) {
+    LiveMessage message = std::move(messages_.front());
+    messages_.pop_front();
+    const bool replaced = std::any_of(messages_.begin(), messages_.end(), [&](const auto& waiting) {
+      return replaces(waiting, message);
+    });
+    if (!replaced) return message;
+    ++dropped_;
+  }
+  return std::nullopt;
 }
 
 }  // namespace aims

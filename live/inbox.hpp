@@ -10,9 +10,10 @@
 
 namespace aims {
 
-/// Queue of messages for a busy node, in order of arrival. A message that has waited too long is
-/// dropped and counted: a large one (a cloud) early, since it costs the most time and the next one
-/// replaces it; a small one late, since an estimator depends on it. These limits bound the memory.
+/// Queue of messages for a busy node, in order of arrival. What has waited too long is dropped and
+/// counted. A large message (a cloud) is early, once a newer one of its topic waits, which replaces
+/// it: no cloud starts later than its limit after its arrival, however slow the node is, unless it
+/// is the newest. A small one, on which an estimator depends, is late. This bounds the memory.
 class Inbox {
  public:
   static constexpr std::size_t kLargeSize = 16384;            ///< size of a large message [bytes]
@@ -20,6 +21,7 @@ class Inbox {
   static constexpr std::int64_t kMaxWaitSmall = 20000000000;  ///< [ns]
 
   void push(LiveMessage message);
+  /// The oldest message that is not replaced; nothing when none waits.
   std::optional<LiveMessage> pop();
   bool empty() const { return messages_.empty(); }
 
@@ -30,7 +32,10 @@ class Inbox {
   std::size_t dropped() const { return dropped_; }
 
  private:
+  bool replaces(const LiveMessage& newer, const LiveMessage& older) const;
+
   std::deque<LiveMessage> messages_;
+  std::int64_t newest_ = 0;  ///< arrival [ns]
   std::int64_t max_wait_large_ = kMaxWaitLarge;
   std::size_t dropped_ = 0;
 };

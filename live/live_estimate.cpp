@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -53,6 +54,7 @@ Result<void> LiveEstimate::run() {
     deliveries.clear();
     for (const std::string& problem : transport_.take_problems()) {
       print_line("warning: " + problem);
+      warning_ = problem;
     }
     if (auto ok = save_now_and_then(); !ok) return ok;
   }
@@ -101,7 +103,7 @@ Result<void> LiveEstimate::take_rows() {
   return {};
 }
 
-/// Adds what the reading knows to the reasons; publishes, and prints where they change.
+/// Adds what the reading knows to the reasons; publishes.
 void LiveEstimate::publish_health(std::vector<HealthRow>& rows) {
   for (HealthRow& row : rows) {
     std::vector<std::string> reasons = start_.clocks->differing();
@@ -110,18 +112,30 @@ void LiveEstimate::publish_health(std::vector<HealthRow>& rows) {
       row.state = std::max(row.state, HealthState::kDegraded);
       row.reasons.insert(row.reasons.end(), reasons.begin(), reasons.end());
     }
-    const auto [scans, samples] = timing_.rates();
-    publications_.health(row, {{"messages dropped", fmt::format("{}", transport_.dropped())},
-                               {"messages lost", fmt::format("{}", transport_.lost())},
-                               {"scans per second", fmt::format("{:.1f}", scans)},
-                               {"IMU samples per second", fmt::format("{:.0f}", samples)},
-                               {"latency median [ms]", fmt::format("{}", timing_.quantile(0.5))},
-                               {"latency 99 % [ms]", fmt::format("{}", timing_.quantile(0.99))}});
-    if (printed_ && row.state == printed_->state && row.reasons == printed_->reasons) continue;
-    print_line(fmt::format("health at {:.1f} s: {}{}{}", to_seconds(row.stamp), name_of(row.state),
-                           row.reasons.empty() ? "" : ": ", fmt::join(row.reasons, "; ")));
-    printed_ = row;
+    publish(row);
   }
+}
+
+/// Prints too, where the state or its reasons change.
+void LiveEstimate::publish(const HealthRow& row) {
+  const auto [scans, samples] = timing_.rates();
+  publications_.health(row, {{"messages dropped", fmt::format("{}", transport_.dropped())},
+                             {"messages lost", fmt::format("{}", transport_.lost())},
+                             {"last warning of the network", warning_},
+                             {"scans per second", fmt::format("{:.1f}", scans)},
+                             {"IMU samples per second", fmt::format("{:.0f}", samples)},
+                             {"latency median [ms]", fmt::format("{}", timing_.quantile(0.5))},
+                             {"latency 99 % [ms]", fmt::format("{}", timing_.quantile(0.99))}});
+  if (printed_ && row.state == printed_->state && row.reasons == printed_->reasons) return;
+  print_line(fmt::format("health at {:.1f} s: {}{}{}", to_seconds(row.stamp), name_of(row.state),
+                         row.reasons.empty() ? "" : ": ", fmt::join(row.reasons, "; ")));
+  printed_ = row;
+}
+
+void LiveEstimate::tell_silence(double seconds) {
+  HealthRow row{last_ ? last_->stamp : 0, HealthState::kInvalid, {"no messages"}, NAN};
+  row.stamp += from_seconds(seconds);
+  publish(row);
 }
 
 std::vector<Eigen::Vector3f> LiveEstimate::placed(std::vector<Eigen::Vector3f> points) const {

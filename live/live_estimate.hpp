@@ -38,6 +38,9 @@ class LiveEstimate {
   /// Writes the map to the log and prints where.
   void save_map();
 
+  /// Publishes that no message has come for so long [s]; prints when that begins.
+  void tell_silence(double seconds);
+
   /// The last pose, as published; none: nothing.
   const std::optional<StampedPose>& last() const { return last_; }
 
@@ -48,6 +51,7 @@ class LiveEstimate {
   Result<void> take(const Delivery& delivery);
   Result<void> take_rows();
   void publish_health(std::vector<HealthRow>& rows);
+  void publish(const HealthRow& row);
   void publish_points(Time stamp);
   Result<void> save_now_and_then();
   std::vector<Eigen::Vector3f> placed(std::vector<Eigen::Vector3f> points) const;
@@ -63,6 +67,7 @@ class LiveEstimate {
   ScanTiming timing_;
   std::optional<StampedPose> last_;
   std::optional<HealthRow> printed_;
+  std::string warning_ = "none";  ///< of the network, the last one
   Time next_map_ = 0;
   std::size_t taken_poses_ = 0;
   std::size_t taken_health_ = 0;

@@ -6,8 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "core/config.hpp"
-
 namespace aims {
 namespace {
 
@@ -18,32 +16,12 @@ constexpr const char* kDdsDescription =
     "Needs no ROS: it speaks DDS.";
 
 constexpr const char* kRos1Footer =
-    "Private parameters have the same names (_estimator:=lio); _set/recording/topics/imu:=/imu is\n"
-    "--set recording.topics.imu=/imu. Exit codes: 0 ok, 2 bad usage, configuration or topics.";
+    "Topics and the node are renamed as ROS does (/a:=/b, __name:=c).\n"
+    "Exit codes: 0 ok, 2 bad usage, configuration or topics.";
 
 constexpr const char* kDdsFooter =
     "CYCLONEDDS_URI chooses the interfaces. Exit codes: 0 ok, 2 bad usage, configuration or "
     "topics.";
-
-constexpr std::string_view kSettingPrefix = "set/";
-
-/// The options that may also be parameters.
-Fields fields_of_options(LiveOptions& options) {
-  Fields fields;
-  fields.text("estimator", options.estimator, {});
-  fields.text("robot", options.robot, {});
-  fields.text("config", options.config, {});
-  fields.text("calibration", options.calibration, {});
-  fields.text("out", options.out, {});
-  fields.text("record", options.record, {});
-  fields.text("odom_frame", options.odom_frame, {});
-  fields.text("body_frame", options.body_frame, {});
-  fields.flag("tf", options.tf, {});
-  fields.number("settle", options.settle, {.unit = "s", .range = in_range(0.1, 60.0)});
-  fields.number("patience", options.patience, {.unit = "s", .range = up_to(1e6)});
-  fields.number("max_wait", options.max_wait, {.unit = "s", .range = in_range(0.05, 20.0)});
-  return fields;
-}
 
 void add_options(CLI::App& app, LiveOptions& options) {
   app.add_option("--estimator,--estimators", options.estimator, "Estimator to run (aims_d)");
@@ -72,7 +50,7 @@ void add_options(CLI::App& app, LiveOptions& options) {
                  "Timeout [s] without the needed topics; 0: none (0)")
       ->check(CLI::Range(0.0, 1e6));
   app.add_option("--max-wait,--max_wait", options.max_wait,
-                 "A cloud that has waited longer [s] for the estimator is dropped (0.2)")
+                 "A cloud that has waited longer [s] is dropped for a newer one (0.05)")
       ->check(CLI::Range(0.05, 20.0));
 }
 
@@ -105,34 +83,7 @@ Result<LiveCommand> parse_live_arguments(std::vector<std::string> arguments, Liv
   } catch (const CLI::ParseError& error) {
     return failure(fmt::format("{}; see --help", error.what()));
   }
-  for (const CLI::Option* option : app.get_options()) {
-    if (option->count() == 0) continue;
-    command.given.push_back(option->get_single_name());
-    std::ranges::replace(command.given.back(), '-', '_');
-  }
   return command;
-}
-
-Result<void> apply_parameters(const std::map<std::string, std::string>& parameters,
-                              LiveCommand& command) {
-  const Fields fields = fields_of_options(command.options);
-  std::vector<std::string> settings;
-  for (const auto& [name, value] : parameters) {
-    if (name.starts_with(kSettingPrefix)) {
-      std::string key = name.substr(kSettingPrefix.size());
-      std::ranges::replace(key, '/', '.');
-      settings.push_back(fmt::format("{}={}", key, value));
-      continue;
-    }
-    const bool given = std::ranges::find(command.given, name) != command.given.end();
-    if (given && fields.find(name) != nullptr) continue;
-    if (auto ok = assign(fields, name, value); !ok) {
-      return failure(fmt::format("parameter ~{}: {}", name, ok.error().message));
-    }
-  }
-  auto& overrides = command.options.overrides;
-  overrides.insert(overrides.begin(), settings.begin(), settings.end());
-  return {};
 }
 
 }  // namespace aims

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,8 +10,7 @@
 
 namespace aims {
 
-/// Options of the node. Each is an option of the command line or a private parameter of that name;
-/// the command line takes precedence.
+/// Options of the node.
 struct LiveOptions {
   std::string estimator = "aims_d";
   std::string robot;                   ///< name of a robot's file, or its path; empty: none
@@ -24,9 +22,9 @@ struct LiveOptions {
   std::string odom_frame = "odom";  ///< of the published poses
   std::string body_frame = "imu";   ///< child frame: the IMU's
   bool tf = false;                  ///< also publish odom_frame -> body_frame on /tf
-  double settle = 3.0;    ///< time gathered before topics, units and extrinsics are decided [s]
-  double patience = 0.0;  ///< timeout without the needed topics [s]; 0: none
-  double max_wait = 0.2;  ///< a cloud that has waited longer for the estimator is dropped [s]
+  double settle = 3.0;     ///< time gathered before topics, units and extrinsics are decided [s]
+  double patience = 0.0;   ///< timeout without the needed topics [s]; 0: none
+  double max_wait = 0.05;  ///< a cloud that has waited longer is dropped for a newer one [s]
   // Of DDS alone.
   std::optional<std::uint32_t> domain;  ///< none: $ROS_DOMAIN_ID, or 0
   std::string node = "aims";            ///< namespace of the published topics
@@ -39,16 +37,10 @@ enum class LiveNetwork { kRos1, kDds };
 /// Parsed arguments.
 struct LiveCommand {
   LiveOptions options;
-  std::vector<std::string> given;  ///< names of the options in the command line
-  std::string help;                ///< not empty: print it and exit
+  std::string help;  ///< not empty: print it and exit
 };
 
 /// Parses arguments without ROS's own. Error: one line.
 Result<LiveCommand> parse_live_arguments(std::vector<std::string> arguments, LiveNetwork network);
-
-/// Applies private parameters: "estimator", "config", ... and "set/a/b" for the setting a.b. Error
-/// for an unknown one, with a near match.
-Result<void> apply_parameters(const std::map<std::string, std::string>& parameters,
-                              LiveCommand& command);
 
 }  // namespace aims

@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kPoll = 0.2;          ///< between queries for new topics [s]
 constexpr double kReportPeriod = 5.0;  ///< [s]
+constexpr Duration kCatchUp = 2 * kSecond;
 constexpr Duration kMaxGathered =
     10 * kSecond;  ///< of the messages gathered, however long it takes
 
@@ -91,14 +92,19 @@ class Gathering {
   std::set<std::string> subscribed_;
 };
 
-/// Waits for messages; from the first time that none is waiting on, clouds may wait no longer than
-/// `max_wait`: before, the estimator catches up with what was gathered.
+/// Waits for messages. Clouds may wait no longer than `max_wait` once none is waiting, at the
+/// latest after `kCatchUp`: before, the estimator catches up with what was gathered.
 LiveSource::Wait waiting_for(Transport& transport, Commands& commands, Duration max_wait) {
-  return [&transport, &commands, max_wait, late = true]() mutable -> std::optional<LiveMessage> {
+  return [&transport, &commands, max_wait, late = true,
+          first = std::optional<Time>()]() mutable -> std::optional<LiveMessage> {
     while (transport.running() && !commands.restarts()) {
       auto message = commands.wait(late ? 0.0 : kPoll);
+      if (message && !first) first = message->arrival;
+      if (late && (!message || message->arrival > *first + kCatchUp)) {
+        transport.limit_wait(max_wait);
+        late = false;
+      }
       if (message) return message;
-      if (std::exchange(late, false)) transport.limit_wait(max_wait);
     }
     return std::nullopt;
   };
@@ -114,8 +120,9 @@ Result<RecordingReader> try_open(Transport& transport, Commands& commands,
   auto reader = RecordingReader::open(std::move(source), config);
   if (!reader) return reader;
   if (auto ok = check_setup(reader->setup()); !ok) return tl::unexpected(ok.error());
+  // A record has each topic to its end: the truth too, which the estimate does not read.
   for (const std::string& topic : gathering.subscribed()) {
-    if (!live.selects(topic)) transport.unsubscribe(topic);
+    if (!options.observer && !live.selects(topic)) transport.unsubscribe(topic);
   }
   live.go_live(options.observer, options.clocks);
   return reader;

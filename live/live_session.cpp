@@ -117,8 +117,10 @@ class Session {
     LiveEstimate running(transport_, publications_, *reader, **estimator, std::move(*log),
                          {T_odom_start_, &clocks, warnings});
     commands_.on_save_map([&] { running.save_map(); });
+    commands_.on_silence([&](double seconds) { running.tell_silence(seconds); });
     const auto done = running.run();
     commands_.on_save_map({});
+    commands_.on_silence({});
     const auto recorded = recorder->close();
     running.print_summary(options_.source_time);
     if (running.last()) last_ = *running.last();

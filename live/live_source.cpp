@@ -45,14 +45,6 @@ void LiveSource::announce(const LiveConnection& connection) {
   for (BagConnection& known : connections_) known.messages += &known == find(connection) ? 1 : 0;
 }
 
-/// The message as read from a bag; nothing for one that is not selected.
-std::optional<BagMessage> LiveSource::given(const LiveMessage& message) {
-  const BagConnection* connection = find(*message.connection);
-  if (connection == nullptr) return std::nullopt;
-  if (!selects(connection->topic)) return std::nullopt;
-  return as_recorded(message, *connection);
-}
-
 BagMessage LiveSource::as_recorded(const LiveMessage& message, const BagConnection& connection) {
   // A clock that was set back must not reverse the order of arrival.
   last_ = std::max(last_, message.arrival);
@@ -105,11 +97,13 @@ const LiveMessage* LiveSource::following() {
 
 Result<std::optional<BagMessage>> LiveSource::next() {
   while (const LiveMessage* message = following()) {
-    auto wanted = given(*message);
-    if (!wanted) continue;
-    if (!goes_on(*message, *wanted->connection)) return std::nullopt;
-    if (observer_ && message == &current_) observer_(*wanted);
-    return wanted;
+    const BagConnection* connection = find(*message->connection);
+    if (connection == nullptr) continue;
+    const bool selected = selects(connection->topic);
+    if (selected && !goes_on(*message, *connection)) return std::nullopt;
+    const BagMessage recorded = as_recorded(*message, *connection);
+    if (observer_ && message == &current_) observer_(recorded);
+    if (selected) return recorded;
   }
   return std::nullopt;
 }

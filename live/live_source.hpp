@@ -45,15 +45,14 @@ class LiveSource final : public MessageSource {
   bool selects(const std::string& topic) const { return !selected_ || selected_->contains(topic); }
 
   /// Makes `next` wait for new messages after the gathered ones instead of ending. `observer` sees
-  /// all gathered messages, which decided how to read, then the selected ones. `clocks` judges
-  /// their stamps: once it is broken, `next` ends; it must outlive the source.
+  /// all messages of the gathered topics, selected or not. `clocks` judges the stamps of the
+  /// selected ones: once it is broken, `next` ends; it must outlive the source.
   void go_live(Observer observer = {}, ClockWatch* clocks = nullptr);
 
  private:
   const BagConnection* find(const LiveConnection& connection) const;
   void announce(const LiveConnection& connection);
   const LiveMessage* following();
-  std::optional<BagMessage> given(const LiveMessage& message);
   bool goes_on(const LiveMessage& message, const BagConnection& connection);
   BagMessage as_recorded(const LiveMessage& message, const BagConnection& connection);
 
@@ -68,7 +67,7 @@ class LiveSource final : public MessageSource {
   std::map<const BagConnection*, std::optional<MessageDecoder>> decoders_;  ///< for the stamps
   std::size_t position_ = 0;  ///< among the gathered messages
   LiveMessage current_;       ///< the last message that was waited for
-  Time last_ = 0;             ///< record time of the last message returned
+  Time last_ = 0;             ///< record time of the last message read
 };
 
 }  // namespace aims

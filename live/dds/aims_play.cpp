@@ -74,6 +74,9 @@ int main_of(int argc, char** argv) {
   arguments.dds.max_blocking = kMaxBlocking;
   CLI::App app("Publishes a recording on DDS at its own pace, as ROS 2 nodes do.", "aims_play");
   add_options(app, arguments);
+  arguments.playback.waiting = [](const std::string& missing) {
+    fmt::print(stderr, "{}: waiting: {}\n", kProgram, missing);
+  };
   if (const auto exit_code = exit_after_parsing(app, kProgram, argc, argv)) return *exit_code;
   return run(arguments);
 }

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdlib>
 #include <mutex>
 #include <set>
 #include <span>
@@ -32,6 +33,19 @@ constexpr auto kWatchPeriod = std::chrono::seconds(1);
 std::atomic<bool> end_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 void request_end(int) { end_requested = true; }
+
+/// Asks the kernel for a receive buffer that holds a cloud; by default CycloneDDS asks for 1 MB,
+/// and what does not fit is sent again, late. What CYCLONEDDS_URI says takes precedence.
+void ask_for_buffer() {
+  constexpr const char* kVariable = "CYCLONEDDS_URI";
+  const std::string buffer =
+      "<CycloneDDS><Domain><Internal><SocketReceiveBufferSize max=\"16 MiB\"/></Internal></Domain>"
+      "</CycloneDDS>";
+  const char* set = std::getenv(kVariable);
+  const std::string given = set == nullptr ? "" : set;
+  if (given.starts_with(buffer)) return;
+  setenv(kVariable, (given.empty() ? buffer : buffer + "," + given).c_str(), 1);
+}
 
 using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 using Listener = std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)>;
@@ -225,6 +239,7 @@ DdsTransport::~DdsTransport() {
 
 Result<std::unique_ptr<DdsTransport>> DdsTransport::connect(const DdsOptions& options) {
   auto impl = std::make_unique<Impl>(options);
+  ask_for_buffer();
   impl->participant = dds_create_participant(options.domain, nullptr, nullptr);
   if (impl->participant < 0) {
     return failure(fmt::format("DDS domain {}: {}; see CYCLONEDDS_URI", options.domain,

@@ -10,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "core/stopwatch.hpp"
 #include "recordings/bag/message_sink.hpp"
 #include "recordings/messages/ros2_definition.hpp"
 #include "recordings/source/conversion.hpp"
@@ -20,8 +21,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kPatience = std::chrono::milliseconds(50);  ///< between looks at the network
-constexpr double kDelay = 1.0;     ///< for subscribers to find the topics [s]
-constexpr double kLastWait = 5.0;  ///< for subscribers to take the last messages [s]
+constexpr double kDelay = 1.0;         ///< for subscribers to find the topics [s]
+constexpr double kReportPeriod = 5.0;  ///< [s]
+constexpr double kLastWait = 5.0;      ///< for subscribers to take the last messages [s]
 
 /// Sends each message when it is due.
 class PacedSink final : public MessageSink {
@@ -53,11 +55,12 @@ class PacedSink final : public MessageSink {
     return {};
   }
 
-  /// Whether each topic has a subscriber.
-  bool heard() const {
-    return std::ranges::all_of(publishers_, [&](const auto& publisher) {
-      return transport_.subscribers(publisher.second) > 0;
-    });
+  /// A topic without a subscriber; empty: each has one.
+  std::string unheard() const {
+    for (const auto& [topic, publisher] : publishers_) {
+      if (transport_.subscribers(publisher) == 0) return topic.first;
+    }
+    return {};
   }
 
   std::uint64_t blocked() const { return blocked_; }
@@ -110,6 +113,22 @@ std::vector<std::string> announce(const MessageSource& recording, PacedSink& sin
   return playable;
 }
 
+/// Until each topic has a subscriber, else for `kDelay`.
+void wait_to_start(const DdsTransport& transport, const PacedSink& sink,
+                   const PlaybackOptions& options) {
+  const Stopwatch since_start;
+  Stopwatch since_report;
+  while (transport.running()) {
+    const std::string unheard = options.wait ? sink.unheard() : "";
+    if (unheard.empty() && (options.wait || since_start.seconds() > kDelay)) return;
+    if (since_report.seconds() > kReportPeriod) {
+      since_report = Stopwatch();
+      options.waiting(fmt::format("no subscriber of {} yet", unheard));
+    }
+    std::this_thread::sleep_for(kPatience);
+  }
+}
+
 }  // namespace
 
 Result<PlaybackOutcome> play(MessageSource& recording, DdsTransport& transport,
@@ -119,12 +138,7 @@ Result<PlaybackOutcome> play(MessageSource& recording, DdsTransport& transport,
   const std::vector<std::string> topics = announce(recording, sink, options, outcome);
   if (topics.empty()) return failure(recording.name() + ": no topic to play");
   recording.select(topics);
-  const auto start = Clock::now();
-  const auto enough = [&] {
-    if (options.wait) return sink.heard();
-    return Clock::now() - start > std::chrono::duration<double>(kDelay);
-  };
-  while (transport.running() && !enough()) std::this_thread::sleep_for(kPatience);
+  wait_to_start(transport, sink, options);
   const auto done = convert_messages(recording, sink, [&](Time) { return transport.running(); });
   if (!done) return tl::unexpected(done.error());
   outcome.topics = done->topics;

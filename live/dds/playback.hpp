@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct PlaybackOptions {
   double rate = 1.0;                ///< of the recording's pace
   std::vector<std::string> topics;  ///< empty: all
   bool wait = false;  ///< starts once each topic has a subscriber; else after a second
+  std::function<void(const std::string&)> waiting;  ///< told every 5 s for what it waits
 };
 
 struct PlaybackOutcome {

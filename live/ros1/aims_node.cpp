@@ -12,7 +12,8 @@ namespace {
 constexpr const char* kProgram = "aims_node";
 
 int main_of(int argc, char** argv) {
-  auto command = parse_live_arguments(Ros1Transport::own_arguments(argc, argv), LiveNetwork::kRos1);
+  const auto command =
+      parse_live_arguments(Ros1Transport::own_arguments(argc, argv), LiveNetwork::kRos1);
   if (!command) return report_bad_input(kProgram, command.error().message);
   if (!command->help.empty()) {
     print_line(command->help);
@@ -21,9 +22,6 @@ int main_of(int argc, char** argv) {
   std::string problem;
   const auto transport = Ros1Transport::connect(argc, argv, kProgram, problem);
   if (!transport) return report_bad_input(kProgram, problem);
-  if (auto ok = apply_parameters(transport->parameters(), *command); !ok) {
-    return report_bad_input(kProgram, ok.error().message);
-  }
   const auto done = run_live(*transport, command->options);
   return done ? kLiveOk : report_bad_input(kProgram, done.error().message);
 }

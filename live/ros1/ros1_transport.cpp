@@ -7,7 +7,7 @@
 #include <topic_tools/shape_shifter.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -31,42 +31,6 @@ struct ByteStream {
     return reinterpret_cast<std::uint8_t*>(bytes.data());
   }
 };
-
-std::string number_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.17g", value);
-  return text;
-}
-
-std::string text_of(XmlRpc::XmlRpcValue& value) {
-  switch (value.getType()) {
-    case XmlRpc::XmlRpcValue::TypeBoolean:
-      return static_cast<bool&>(value) ? "true" : "false";
-    case XmlRpc::XmlRpcValue::TypeInt:
-      return std::to_string(static_cast<int&>(value));
-    case XmlRpc::XmlRpcValue::TypeDouble:
-      return number_text(static_cast<double&>(value));
-    case XmlRpc::XmlRpcValue::TypeString:
-      return static_cast<std::string&>(value);
-    case XmlRpc::XmlRpcValue::TypeArray:
-      break;
-    default:
-      return {};
-  }
-  std::string text;
-  for (int i = 0; i < value.size(); ++i) text += (i > 0 ? ", " : "") + text_of(value[i]);
-  return "[" + text + "]";
-}
-
-void flatten(XmlRpc::XmlRpcValue& value, const std::string& key,
-             std::map<std::string, std::string>& texts) {
-  if (value.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
-    texts[key] = text_of(value);
-    return;
-  }
-  const std::string prefix = key.empty() ? key : key + "/";
-  for (auto& [name, child] : value) flatten(child, prefix + name, texts);
-}
 
 void request_end(int) { ros::requestShutdown(); }
 
@@ -110,6 +74,10 @@ std::vector<std::string> Ros1Transport::own_arguments(int argc, char** argv) {
   std::vector<std::string> arguments;
   ros::removeROSArgs(argc, argv, arguments);
   if (!arguments.empty()) arguments.erase(arguments.begin());
+  // Private parameters ("_name:=value") are not read: they are refused as unknown, not ignored.
+  std::copy_if(argv + 1, argv + argc, std::back_inserter(arguments), [](const std::string& each) {
+    return each.size() > 1 && each[0] == '_' && each[1] != '_';
+  });
   return arguments;
 }
 
@@ -131,13 +99,6 @@ std::unique_ptr<Ros1Transport> Ros1Transport::connect(int argc, char** argv,
 }
 
 bool Ros1Transport::running() const { return ros::ok(); }
-
-std::map<std::string, std::string> Ros1Transport::parameters() const {
-  XmlRpc::XmlRpcValue all;
-  std::map<std::string, std::string> texts;
-  if (ros::param::get(ros::this_node::getName(), all)) flatten(all, "", texts);
-  return texts;
-}
 
 std::map<std::string, std::string> Ros1Transport::topics() {
   ros::master::V_TopicInfo found;

@@ -16,18 +16,14 @@ namespace aims {
 /// stays in one source.
 class Ros1Transport final : public Transport {
  public:
-  /// The arguments without those of ROS ("topic:=other", "_parameter:=value") and without the
-  /// program's name.
+  /// The arguments without those of ROS ("topic:=other", "__name:=other") and without the program's
+  /// name.
   static std::vector<std::string> own_arguments(int argc, char** argv);
 
   /// Registers the node. Without a master: nullptr, and a line in `error`.
   static std::unique_ptr<Ros1Transport> connect(int argc, char** argv, const std::string& name,
                                                 std::string& error);
   ~Ros1Transport() override;
-
-  /// The node's private parameters, "recording/topics/imu" for ~recording/topics/imu. Lists are
-  /// formatted "[a, b]".
-  std::map<std::string, std::string> parameters() const;
 
   bool cdr() const override { return false; }
   bool running() const override;

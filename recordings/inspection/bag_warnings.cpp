@@ -58,6 +58,35 @@ void warn_of_recorder(const BagInfo& info, std::vector<std::string>& out) {
   }
 }
 
+/// The IMU that is read, else the LiDAR. An offset of stamps from record times that sensors share
+/// is the recorder's clock, which no delay of a sensor corrects.
+const TopicInfo* reference_of(const BagInfo& info) {
+  for (const std::string& topic : {info.used.imu, info.used.lidar}) {
+    const TopicInfo* found = info.find(topic);
+    if (found != nullptr && found->stamped && found->median_offset_s) return found;
+  }
+  return nullptr;
+}
+
+/// Stamps whose clock is not that of the IMU, or without an IMU not the recorder's.
+void warn_of_stamps(const BagInfo& info, const TopicInfo& topic, std::vector<std::string>& out) {
+  // Reading says the same, without the time that the sensor takes.
+  const bool said = std::ranges::any_of(info.notes, [&](const std::string& note) {
+    return note.starts_with(topic.topic + ": stamps are");
+  });
+  if (!topic.stamped || said || !topic.median_offset_s) return;
+  const TopicInfo* reference = reference_of(info);
+  const double offset =
+      *topic.median_offset_s - (reference != nullptr ? *reference->median_offset_s : 0.0);
+  if (std::abs(offset) <= kMaxOffset) return;
+  out.push_back(fmt::format(
+      "{}: stamps are {:.3f} s {} {}; if the clocks differ, set recording.{}_delay={:.3f}",
+      topic.topic, std::abs(offset), offset > 0.0 ? "before" : "after",
+      reference != nullptr ? fmt::format("those of {}, by the record times", reference->topic)
+                           : "the record times",
+      delay_of(topic), -offset));
+}
+
 void warn_of_times(const BagInfo& info, const TopicInfo& topic, std::vector<std::string>& out) {
   if (!is_sensor(topic) || topic.messages < 2) return;
   if (topic.zero_stamps) {
@@ -82,18 +111,7 @@ void warn_of_times(const BagInfo& info, const TopicInfo& topic, std::vector<std:
                     "driver's clock",
                     topic.topic, topic.repeated, topic.backwards));
   }
-  // Reading says the same, without the time that the sensor takes.
-  const bool said = std::ranges::any_of(info.notes, [&](const std::string& note) {
-    return note.starts_with(topic.topic + ": stamps are");
-  });
-  if (topic.stamped && !said && std::abs(topic.median_offset_s.value_or(0.0)) > kMaxOffset) {
-    out.push_back(
-        fmt::format("{}: stamps are {:.3f} s {} the record times; if the clocks differ, set "
-                    "recording.{}_delay={:.3f}",
-                    topic.topic, std::abs(*topic.median_offset_s),
-                    *topic.median_offset_s > 0.0 ? "before" : "after", delay_of(topic),
-                    -*topic.median_offset_s));
-  }
+  warn_of_stamps(info, topic, out);
 }
 
 /// A different clock shows as a shift between the angular rates.

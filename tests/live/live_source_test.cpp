@@ -99,6 +99,17 @@ TEST_F(LiveSourceTest, ReturnsSelectedTopicsOnly) {
   EXPECT_EQ(values_of(source), (std::vector{2, 4}));
 }
 
+TEST_F(LiveSourceTest, ShowsAnObserverAllThatIsHeardInOrderAndReturnsWhatIsSelected) {
+  LiveSource source(gathered_, network_.wait());
+  const std::array<std::string, 1> topics = {"/a"};
+  source.select(topics);
+  std::vector<int> observed;
+  source.go_live(
+      [&](const BagMessage& seen) { observed.push_back(static_cast<int>(seen.data[0])); });
+  EXPECT_EQ(values_of(source), (std::vector{1, 3, 5}));
+  EXPECT_EQ(observed, (std::vector{1, 2, 3, 4, 5}));
+}
+
 TEST_F(LiveSourceTest, SkipsTopicsAndTypesThatWereNotGathered) {
   network_.coming.push_front(message(connection("/c"), 35, 7));
   network_.coming.push_front(message(connection("/a", "another"), 36, 8));

@@ -155,6 +155,12 @@ class LiveEstimate(unittest.TestCase):
             self.assertEqual(ours[key], expected, key)
         for key in ("poses", "counts"):
             self.assertEqual(ours["estimators"]["aims_d"][key], theirs["estimators"]["aims_d"][key], key)
+        # A record has the truth to its end, so that the estimate can be scored.
+        self.assertEqual(theirs["topics"]["truth"], "/ground_truth/imu")
+        info = subprocess.run([AIMS, "info", live.name + ".mcap"], capture_output=True, text=True, check=True).stdout
+        counts = {row[0]: int(row[2]) for row in map(str.split, info.splitlines()) if row[2:] and row[2].isdigit()}
+        self.assertGreater(counts["/ground_truth/imu"], 9 * counts["/lidar/points"], "100 Hz and 10 Hz")
+        self.assertNotIn("stamps are", info)
         return live
 
     def test_live_poses_are_those_of_the_recording_byte_for_byte(self):

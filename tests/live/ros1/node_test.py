@@ -60,12 +60,10 @@ class LiveEstimate(unittest.TestCase):
 
     @classmethod
     def run_live(cls, network):
-        network.ask("setParam", "/aims_node/out", "live")
-        network.ask("setParam", "/aims_node/record", "live.bag")
-        network.ask("setParam", "/aims_node/set/recording/topics/lidar", "/lidar/points")
         cls.listener = Listener(network)
         with open("node.log", "w", encoding="utf-8") as log:
-            node = network.start([NODE, "--tf", "--settle", "2"], stdout=log, stderr=log)
+            node = network.start([NODE, "--tf", "--settle", "2", "--out", "live", "--record", "live.bag", "--set",
+                                  "recording.topics.lidar=/lidar/points"], stdout=log, stderr=log)
             play = network.start(["/usr/lib/rosbag/play", "--quiet", "--delay=2", "walk.bag"],
                                  stdout=subprocess.DEVNULL)
             wait_until(lambda: network.subscribers("/lidar/points"), 10, "the node to subscribe")
@@ -159,8 +157,7 @@ class BadUsage(unittest.TestCase):
             fails(self, ["'amis'", "did you mean"], environment, "--estimator", "amis")
             fails(self, ["recording.topics.imoo"], environment, "--set",
                   "recording.topics.imoo=/imu")
-            fails(self, ["parameter ~estimater", "did you mean"], environment,
-                  "_estimater:=aims")
+            fails(self, ["_estimator:=lio", "see --help"], environment, "_estimator:=lio")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/inspection/bag_warnings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+namespace aims {
+namespace {
+
+TopicInfo topic(const std::string& name, const std::string& type, double offset_s) {
+  TopicInfo info;
+  info.topic = name;
+  info.type = type;
+  info.messages = 1000;
+  info.stamped = true;
+  info.median_offset_s = offset_s;
+  return info;
+}
+
+/// IMU, cloud and legs, recorded that long after their stamps.
+BagInfo recording(double imu_s, double lidar_s, double leg_s) {
+  BagInfo info;
+  info.topics = {topic("/imu", "sensor_msgs/Imu", imu_s),
+                 topic("/points", "sensor_msgs/PointCloud2", lidar_s),
+                 topic("/odom", "nav_msgs/Odometry", leg_s)};
+  info.used.imu = "/imu";
+  info.used.lidar = "/points";
+  return info;
+}
+
+std::size_t advices(const BagInfo& info, const std::string& text) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      bag_warnings(info), [&](const auto& each) { return each.find(text) != std::string::npos; }));
+}
+
+TEST(BagWarnings, NoDelayIsAdvisedForARecorderWhoseClockAllSensorsDifferFrom) {
+  EXPECT_EQ(advices(recording(1.8e9, 1.8e9 + 0.1, 1.8e9), "_delay"), 0U);
+}
+
+TEST(BagWarnings, TheAdvisedDelayIsTheDifferenceFromTheImu) {
+  EXPECT_EQ(advices(recording(1.8e9, 1.8e9 + 0.1, 1.8e9 + 2.0),
+                    "/odom: stamps are 2.000 s before those of /imu, by the record times; if the "
+                    "clocks differ, set recording.leg_delay=-2.000"),
+            1U);
+  EXPECT_EQ(advices(recording(0.0, -3.0, 0.0), "recording.lidar_delay=3.000"), 1U);
+}
+
+TEST(BagWarnings, WithoutAnImuRecordTimesAreTheReference) {
+  BagInfo info = recording(0.0, 0.0, 7.0);
+  info.used = {};
+  EXPECT_EQ(advices(info, "/odom: stamps are 7.000 s before the record times"), 1U);
+}
+
+}  // namespace
+}  // namespace aims
