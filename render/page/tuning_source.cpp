@@ -122,10 +122,10 @@ Result<TuningSource> read_tune(const fs::path& folder) {
   const JobStore units(folder);
   const auto asked_for = read_tune_jobs(folder);
   std::size_t broken = 0;
-  std::size_t others = 0;
+  std::size_t earlier = 0;
   for (const std::string& id : units.ids()) {
     if (asked_for && !asked_for->contains(id)) {
-      ++others;
+      ++earlier;
       continue;
     }
     auto unit = unit_of(units, id);
@@ -137,9 +137,9 @@ Result<TuningSource> read_tune(const fs::path& folder) {
     (tuned ? source.units : source.held_out).jobs.push_back(std::move(*unit));
   }
   if (broken > 0) source.notes.push_back(fmt::format("{} job files cannot be read", broken));
-  if (others > 0) {
+  if (earlier > 0) {
     source.notes.push_back(
-        fmt::format("{} jobs of an earlier plan in this folder do not count", others));
+        fmt::format("{} jobs of an earlier plan in this folder do not count", earlier));
   }
   return source;
 }
