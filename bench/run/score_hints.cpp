@@ -135,7 +135,7 @@ std::optional<std::string> body_frame_hint(const Trajectory& estimate, const Tra
       "its body frame is turned by {} against the truth's: --extrinsic '0 0 0 {:.4g} {:.4g} {:.4g} "
       "{:.4g}' takes it to the truth's (the ATE aligned by heading does not depend on it, heading "
       "error and ATE from the start do)",
-      turn_text(q), q.x(), q.y(), q.z(), q.w());
+      turn_text(q), q.x() + 0.0, q.y() + 0.0, q.z() + 0.0, q.w());
 }
 
 }  // namespace aims
