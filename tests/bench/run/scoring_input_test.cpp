@@ -243,7 +243,8 @@ TEST_F(ScoringInputs, ATurnedBodyFrameIsNamedWithTheExtrinsicThatCorrectsIt) {
     return note.find("turned by 90 deg about z") != std::string::npos;
   });
   ASSERT_NE(hint, scored->notes.end());
-  const std::size_t begin = hint->find('\'') + 1;
+  constexpr std::string_view kOption = "--extrinsic '";
+  const std::size_t begin = hint->find(kOption) + kOption.size();
   request.extrinsic = hint->substr(begin, hint->find('\'', begin) - begin);
   const auto again = score_trajectories(*read_scoring_input(request));
   EXPECT_LT(*again->estimates[0].scores.ate_m, 1e-4) << request.extrinsic;

@@ -40,7 +40,7 @@ TEST_F(RecordingReaderTest, SeveralSuitableTopicsAreAnErrorThatNamesThem) {
   EXPECT_EQ(test::read_recording(bag()).error,
             bag().string() +
                 ": several topics are sensor_msgs/PointCloud2 or a livox CustomMsg: "
-                "/left/points, /right/points; choose one with topics.lidar (or none)");
+                "/left/points, /right/points; choose one with recording.topics.lidar (or none)");
   RecordingConfig config;
   config.topics.lidar = "/left/points";
   EXPECT_EQ(test::read_recording(bag(), config).error, "");
@@ -151,17 +151,17 @@ TEST_F(RecordingReaderTest, AMissingTopicIsAnErrorThatListsTheExistingOnes) {
   EXPECT_EQ(test::read_recording(bag()).error,
             bag().string() +
                 ": no topic is sensor_msgs/PointCloud2 or a livox CustomMsg "
-                "(topics.lidar; 'none' to do without); it has /imu (sensor_msgs/Imu)");
+                "(recording.topics.lidar; 'none' to do without); it has /imu (sensor_msgs/Imu)");
   RecordingConfig config;
   config.topics.lidar = "/imux";
   EXPECT_EQ(test::read_recording(bag(), config).error,
             bag().string() +
-                ": no topic '/imux' (topics.lidar); did you mean '/imu'?; it has /imu "
+                ": no topic '/imux' (recording.topics.lidar); did you mean '/imu'?; it has /imu "
                 "(sensor_msgs/Imu)");
   config.topics.lidar = "/imu";
   EXPECT_EQ(test::read_recording(bag(), config).error,
             bag().string() +
-                ": topic '/imu' (topics.lidar) is sensor_msgs/Imu, expected "
+                ": topic '/imu' (recording.topics.lidar) is sensor_msgs/Imu, expected "
                 "sensor_msgs/PointCloud2 or a livox CustomMsg");
   config.topics.lidar = "none";
   EXPECT_EQ(test::read_recording(bag(), config).error, "");
