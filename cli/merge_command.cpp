@@ -20,7 +20,7 @@ constexpr std::size_t kMostShown = 10;  ///< jobs that are listed one by one
 struct MergeArguments {
   std::vector<std::string> folders;
   SharedOptions shared;
-  std::string score = Objective{}.score;
+  Objective objective;
 };
 
 /// Lists jobs that failed or are missing, up to a number.
@@ -46,11 +46,11 @@ int merge_command(const MergeArguments& arguments) {
       arguments.shared.out.empty() ? folders.front() : fs::path(arguments.shared.out);
   const auto sweep = merge_sweeps(folders);
   if (!sweep) return bad_input("merge", sweep.error());
-  if (auto written = write_results(*sweep, arguments.score, out); !written) {
+  if (auto written = write_results(*sweep, arguments.objective, out); !written) {
     return bad_input("merge", written.error());
   }
   print_out("{}\n", to_text(merge_table(*sweep)));
-  print_points(*sweep, arguments.score);
+  print_points(*sweep, arguments.objective);
   print_open(*sweep);
   if (sweep->others > 0) {
     print_out("note: {} results of another plan, code or scenario version are left out\n",
@@ -70,8 +70,11 @@ void declare_merge(Command command, const fs::path& /*scenarios*/) {
   command.arguments("folder", arguments->folders, "Folders of aims sweep, finished or not",
                     Presence::kRequired);
   add_out(command, arguments->shared, "the first folder");
-  command.option("--score", arguments->score,
+  command.option("--score", arguments->objective.score,
                  "Key of scores.json that sweep.md analyses (ate_yaw_m)");
+  command.option("--divergence-penalty", arguments->objective.divergence_penalty, {1e-9, 1e9},
+                 "Value of a diverged run in the objective, of which the fraction of\n"
+                 "diverged runs is added too (10)");
   command.footer(
       "Writes sweep.sqlite, sweep.csv, sweep.md and pictures.\n"
       "Examples:\n"

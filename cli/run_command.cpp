@@ -74,6 +74,7 @@ void print_run(const Suite& suite, const fs::path& out, const SharedOptions& sha
   print_ring_notes(suite);
   print_expectations(suite);
   print_outcome(suite, shared);
+  if (const auto warning = route_warning(each.scenario)) print_out("warning: {}\n", *warning);
   for (const std::string& warning : calibration_warnings(shared, each.scenario)) {
     print_out("warning: {}\n", warning);
   }

@@ -109,6 +109,8 @@ void add_inputs(Command& command, ScoreArguments& arguments) {
   command.option("--times", request.times, "Stamps of KITTI poses: a file with one per line [s]");
   command.option("--time-offset", request.time_offset_s, {-4e9, 4e9},
                  "Added to the stamps of the estimates [s] (0)");
+  command.choice("--stamp-unit", request.stamp_unit, {"s", "ms", "us", "ns"},
+                 "Unit of the stamps of estimates in text files (s)");
   command.option("--extrinsic", request.extrinsic,
                  "'x y z qx qy qz qw': pose of the frame of the estimates in\n"
                  "the body frame of the truth, e.g. of the LiDAR in the IMU");

@@ -98,14 +98,14 @@ Result<Json> collect(const SharedOptions& shared, bool complete) {
   const std::vector<fs::path> folders = {shared.out};
   const auto sweep = merge_sweeps(folders);
   if (!sweep) return tl::unexpected(sweep.error());
-  const std::string score = Objective{}.score;
-  print_points(*sweep, score);
+  const Objective objective;
+  print_points(*sweep, objective);
   if (complete) {
-    if (auto written = write_results(*sweep, score, shared.out); !written) {
+    if (auto written = write_results(*sweep, objective, shared.out); !written) {
       return tl::unexpected(written.error());
     }
   }
-  return points_json(*sweep, score);
+  return points_json(*sweep, objective);
 }
 
 int exit_code_of(const JobRun& run) {

@@ -17,15 +17,9 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostShown = 40;  ///< points that are listed one by one
 
-Objective objective_of(const std::string& score) {
-  Objective objective;
-  objective.score = score;
-  return objective;
-}
-
 }  // namespace
 
-Result<void> write_results(const MergedSweep& sweep, const std::string& score,
+Result<void> write_results(const MergedSweep& sweep, const Objective& objective,
                            const fs::path& out) {
   std::error_code ignored;
   fs::create_directories(out, ignored);
@@ -33,26 +27,23 @@ Result<void> write_results(const MergedSweep& sweep, const std::string& score,
   if (written) written = write_sweep_csv(sweep, out / "sweep.csv");
   if (!written) return written;
   std::vector<std::string> warnings;
-  const auto summary =
-      write_sweep_summary(sweep, objective_of(score), out, draw_response, warnings);
+  const auto summary = write_sweep_summary(sweep, objective, out, draw_response, warnings);
   if (!summary) warnings.push_back("no sweep.md: " + summary.error().message);
   for (const std::string& warning : warnings) print_out("note: {}\n", warning);
   return {};
 }
 
-Json points_json(const MergedSweep& sweep, const std::string& score) {
-  const auto responses = sweep_responses(sweep, score);
+Json points_json(const MergedSweep& sweep, const Objective& objective) {
+  const auto responses = sweep_responses(sweep, objective.score);
   if (!responses || responses->empty()) return {};
-  const Objective objective = objective_of(score);
   Json json = Json::array();
   for (const SweepResponse& each : *responses) json.push_back(response_json(each, objective));
   return json;
 }
 
-void print_points(const MergedSweep& sweep, const std::string& score) {
-  const auto responses = sweep_responses(sweep, score);
+void print_points(const MergedSweep& sweep, const Objective& objective) {
+  const auto responses = sweep_responses(sweep, objective.score);
   if (!responses || responses->empty()) return;
-  const Objective objective = objective_of(score);
   TextTable table = point_table(*responses, objective);
   if (table.rows.empty()) return;
   const std::size_t points = table.rows.size();

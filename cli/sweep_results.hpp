@@ -2,9 +2,9 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include "bench/scoring/json_text.hpp"
+#include "bench/tuning/objective.hpp"
 #include "bench/tuning/sweep_store.hpp"
 #include "core/error.hpp"
 
@@ -12,14 +12,14 @@ namespace aims {
 
 /// Writes sweep.sqlite, sweep.csv and, of a sweep with ranges, sweep.md and pictures into `out`,
 /// which is made. What could not be drawn is printed as a note.
-Result<void> write_results(const MergedSweep& sweep, const std::string& score,
+Result<void> write_results(const MergedSweep& sweep, const Objective& objective,
                            const std::filesystem::path& out);
 
 /// Prints every point that is complete with its objective and score, up to a number, and what the
 /// objective is; nothing without ranges.
-void print_points(const MergedSweep& sweep, const std::string& score);
+void print_points(const MergedSweep& sweep, const Objective& objective);
 
 /// Every complete point per estimator, as `response_json`; null without ranges.
-Json points_json(const MergedSweep& sweep, const std::string& score);
+Json points_json(const MergedSweep& sweep, const Objective& objective);
 
 }  // namespace aims

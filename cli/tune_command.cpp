@@ -90,6 +90,9 @@ Result<Answer> finish(const TuneArguments& arguments, const TuneResult& result) 
   const bool front = result.tables.size() > 1;
   if (!result.chosen.empty()) {
     print_out("tuned values: {}\n", held_out_verdict(result));
+    if (defaults_all_diverged(result.tables.front())) {
+      print_out("warning: on the sequences tuned on, {}\n", kNoGain);
+    }
     print_out("{}", to_text(front ? front_table(result) : outcome_table(result)));
   }
   const auto left_out = left_out_lines(result);

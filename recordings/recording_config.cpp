@@ -119,6 +119,8 @@ void describe(Fields& f, RecordingConfig& c) {
   f.choice("imu_unit", c.imu_unit,
            {{"auto", ImuUnit::kAuto}, {"m/s^2", ImuUnit::kMetres}, {"g", ImuUnit::kGravities}},
            dimensionless("unit of the specific force; auto: from its norm at the start"));
+  f.choice("gyro_unit", c.gyro_unit, {{"rad/s", GyroUnit::kRadians}, {"deg/s", GyroUnit::kDegrees}},
+           dimensionless("unit of the angular velocity"));
   describe_clouds(f, c);
   f.number("imu_delay", c.imu_delay, delay_of("IMU"));
   f.number("lidar_delay", c.lidar_delay, delay_of("LiDAR"));

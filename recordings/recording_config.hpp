@@ -47,6 +47,9 @@ struct ExtrinsicConfig {
 };
 
 enum class ImuUnit { kAuto, kMetres, kGravities };
+
+/// Unit of the angular velocity in a recording.
+enum class GyroUnit { kRadians, kDegrees };
 enum class PointTimeUnit { kAuto, kSeconds, kMilliseconds, kMicroseconds, kNanoseconds };
 /// Instant of the scan that a cloud's header stamp marks.
 enum class CloudStamp { kAuto, kStart, kEnd };
@@ -67,6 +70,7 @@ struct RecordingConfig {
   ExtrinsicConfig T_imu_lidar;
   ExtrinsicConfig T_imu_base;
   ImuUnit imu_unit = ImuUnit::kAuto;
+  GyroUnit gyro_unit = GyroUnit::kRadians;
   PointTimeUnit point_time_unit = PointTimeUnit::kAuto;
   CloudStamp cloud_stamp = CloudStamp::kAuto;
   double lidar_rate = 10.0;     ///< scan rate, if points have no time [Hz]

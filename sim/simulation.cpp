@@ -81,7 +81,9 @@ std::vector<WaypointTime> waypoint_times_since(const RouteFollower& route, Time 
 Result<void> check_route(const SimulationConfig& config, const Scene& scene, const World& world) {
   auto walkable =
       check_walkable(config.route, scene, {config.robot.gait.body_height, config.robot.half_width});
-  if (!walkable) return walkable;
+  if (!walkable) {
+    return failure(walkable.error().message + "; " + route_hint(config.scene.kind));
+  }
   if (world.robot_inside_solid()) {
     return failure("route.points.0: the robot would start inside a wall or object of the scene");
   }

@@ -158,7 +158,7 @@ std::vector<std::string> words(const RateCheck& check, const RecordingConfig& co
     const bool degrees = check.scale > 1.0;
     return {fmt::format(
         "UNIT OF THE GYRO: it turns {:.3g} times as fast as LiDAR odometry: {}", check.scale,
-        degrees ? "it is in deg/s: convert it to rad/s in the driver (of a table: gyro_unit: deg/s)"
+        degrees ? "it is in deg/s: set recording.gyro_unit=deg/s (of a table: gyro_unit: deg/s)"
                 : "it is converted to rad/s twice")};
   }
   if (!check.clock) {

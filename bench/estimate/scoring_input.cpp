@@ -108,6 +108,21 @@ tl::unexpected<Error> refuse_offset(const ScoringRequest& request) {
                              request.time_offset_s));
 }
 
+/// By how many decimals the unit of stamps lies below seconds.
+int stamp_decimals(const ScoringRequest& request) {
+  if (request.stamp_unit == "ms") return 3;
+  if (request.stamp_unit == "us") return 6;
+  return request.stamp_unit == "ns" ? 9 : 0;
+}
+
+/// The error of an estimate; one of an unlikely stamp with the option that reads it.
+tl::unexpected<Error> with_unit(const std::string& message) {
+  constexpr std::string_view kLikely = "likely in ";
+  const std::size_t at = message.rfind(kLikely);
+  if (at == std::string::npos) return failure(message);
+  return failure(fmt::format("{}: --stamp-unit {}", message, message.substr(at + kLikely.size())));
+}
+
 Result<void> read_estimates(const ScoringRequest& request, std::vector<StampList> stamps,
                             ScoringInput& input) {
   const auto extrinsic = extrinsic_of(request.extrinsic);
@@ -122,8 +137,9 @@ Result<void> read_estimates(const ScoringRequest& request, std::vector<StampList
   }
   for (std::size_t i = 0; i < request.estimates.size(); ++i) {
     const std::string& source = request.estimates[i];
-    auto file = trajectory_of(request, source, {PoseRules::kAsGiven, "", stamps});
-    if (!file) return tl::unexpected(file.error());
+    auto file =
+        trajectory_of(request, source, {PoseRules::kAsGiven, "", stamps, stamp_decimals(request)});
+    if (!file) return with_unit(file.error().message);
     input.notes.insert(input.notes.end(), file->notes.begin(), file->notes.end());
     const bool moved = !request.extrinsic.empty();
     for (StampedPose& each : file->trajectory) {

@@ -28,7 +28,8 @@ struct ScoringRequest {
   /// In place of a truth: the pose of the end in the frame of the start, "x y z qx qy qz qw", or
   /// "x y z", of which only the distance counts. Empty: there is a truth.
   std::string end_pose;
-  double time_offset_s = 0.0;  ///< added to the stamps of the estimates
+  double time_offset_s = 0.0;    ///< added to the stamps of the estimates
+  std::string stamp_unit = "s";  ///< of estimates in text files: s, ms, us or ns
   ScoreConfig scoring;
   /// `scoring` is of a configuration, whose segments count before those that a run states.
   bool is_configured = false;

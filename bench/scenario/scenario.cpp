@@ -227,6 +227,17 @@ Result<void> check_simulation(const Scenario& scenario, std::uint64_t seed) {
   return {};
 }
 
+std::optional<std::string> route_warning(const Scenario& scenario) {
+  const SceneKind kind = scenario.simulation.scene.kind;
+  const auto is_set = [&](const std::string& begin) {
+    return std::ranges::any_of(scenario.overrides,
+                               [&](const std::string& each) { return each.starts_with(begin); });
+  };
+  if (scenario.simulation.route.follow_scene || is_set("route.")) return std::nullopt;
+  if (!is_set(std::string(length_key(kind)) + "=")) return std::nullopt;
+  return "the route is as before; " + route_hint(kind);
+}
+
 Result<Scenario> load_scenario(const fs::path& file, std::span<const std::string> overrides,
                                const fs::path& folder) {
   Scenario scenario;

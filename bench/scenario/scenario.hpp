@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -78,6 +79,10 @@ Error located(const Scenario& scenario, const Error& error);
 /// Error, with the line in the scenario's file, when the simulation cannot start on that seed: the
 /// robot would stand in a wall, or a route point lies inside an object.
 Result<void> check_simulation(const Scenario& scenario, std::uint64_t seed);
+
+/// Of a scene whose length an override changes while the route stays: the robot turns or ends where
+/// it did before.
+std::optional<std::string> route_warning(const Scenario& scenario);
 
 /// Reads a scenario and applies `overrides` ("key=value") on top of it. Checks everything that can
 /// be checked without simulating; errors are one line that names file, line, key and expectation.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bench/scoring/score_hints.hpp"
 #include "bench/scoring/start_anchor.hpp"
 #include "recordings/trajectories/pose_cleaning.hpp"
 
@@ -36,6 +37,9 @@ Result<void> check_overlap(const SourcedTrajectory& estimate, const SourcedTraje
   const Trajectory span = {*first, *last};
   const Time begin = truth.trajectory.front().stamp;
   if (first->stamp <= truth.trajectory.back().stamp && last->stamp >= begin) return {};
+  if (const auto hint = stamp_unit_hint(estimate.trajectory, truth.trajectory)) {
+    return failure(fmt::format("{}: {}", estimate.source, *hint));
+  }
   return failure(
       fmt::format("{}: its stamps, {}, do not overlap the truth's, {}: likely a clock "
                   "offset; if both began together, --time-offset {:.9f} makes it good",
@@ -96,6 +100,18 @@ void note_truth(const ScoringInput& input, std::vector<std::string>& notes) {
                           "scoring.min_segment_length: no M_list",
                           each.name, length)
             : fmt::format("segment {}: not within the truth's stamps: no M_list", each.name));
+  }
+}
+
+/// What likely makes the scores what they are, with the option that corrects it.
+void note_causes(const TrajectoryScores& result, std::vector<std::string>& notes) {
+  const Trajectory& truth = result.truth.trajectory;
+  for (const ScoredEstimate& each : result.estimates) {
+    const Trajectory& given = each.given.trajectory;
+    for (const auto& hint :
+         {stamp_unit_hint(given, truth), body_frame_hint(given, truth, result.scoring)}) {
+      if (hint) notes.push_back(fmt::format("{}: {}", each.given.name, *hint));
+    }
   }
 }
 
@@ -178,6 +194,7 @@ Result<TrajectoryScores> score_trajectories(ScoringInput input) {
   result.waypoint_times = std::move(input.waypoint_times);
   result.segments = std::move(input.segments);
   result.scoring = std::move(input.scoring);
+  note_causes(result, result.notes);
   note_estimates(result, result.notes);
   return result;
 }

@@ -38,11 +38,12 @@ void add_intervals(const ResponseTable& table, const Objective& objective, BestP
   best.objective_interval = interval([&](std::span<const std::size_t> drawn) {
     return objective_at(table, objective, best.point, cases(drawn));
   });
-  best.gain_interval = interval([&](std::span<const std::size_t> drawn) {
-    const auto some = cases(drawn);
-    return gain_over(objective_at(table, objective, kDefaults, some),
-                     objective_at(table, objective, best.point, some));
-  });
+  if (best.gain)
+    best.gain_interval = interval([&](std::span<const std::size_t> drawn) {
+      const auto some = cases(drawn);
+      return gain_over(objective_at(table, objective, kDefaults, some),
+                       objective_at(table, objective, best.point, some));
+    });
   std::map<std::vector<std::size_t>, std::optional<std::size_t>> known;
   const auto best_of = [&](std::span<const std::size_t> drawn) {
     std::vector<std::size_t> sorted(drawn.begin(), drawn.end());
@@ -76,7 +77,8 @@ Result<BestPoint> best_point(const ResponseTable& table, const Objective& object
   best.values = table.points[*point];
   best.objective = *objective_at(table, objective, *point, all);
   best.defaults = objective_at(table, objective, kDefaults, all);
-  best.gain = gain_over(best.defaults, best.objective);
+  best.defaults_diverged = defaults_all_diverged(table);
+  if (!best.defaults_diverged) best.gain = gain_over(best.defaults, best.objective);
   for (std::size_t i = 0; i < table.ranges.size(); ++i) {
     best.distance.push_back(fraction_of(table.ranges[i], best.values[i]) -
                             fraction_of(table.ranges[i], table.defaults[i]));

@@ -21,6 +21,7 @@ struct BestPoint {
   Interval objective_interval;
   std::optional<double> defaults;  ///< objective of the default setting
   std::optional<double> gain;      ///< reduction of the objective, as a fraction of the defaults'
+  bool defaults_diverged = false;  ///< every run with the defaults: there is no gain
   Interval gain_interval;
   std::vector<double> distance;  ///< best minus defaults per parameter, in widths of its range
 };

@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
 #include "bench/metrics/paired_test.hpp"
+#include "bench/metrics/proportion.hpp"
 
 namespace aims {
 namespace {
@@ -21,6 +23,19 @@ std::string changes_text(const Interval& interval) {
 /// The interval says better, and the test that these sequences are too few or too often alike.
 bool may_be_better(const PairedGain& gain) {
   return gain.interval.low && *gain.interval.low > 0.0 && gain.p > kSignificant;
+}
+
+/// Of the runs that the point saves where every one with the defaults diverged.
+double p_of_saved(const PairedGain& gain) {
+  return mcnemar_test(0, gain.sequences - gain.diverged).p;
+}
+
+/// Of held-out sequences on which every run with the defaults diverged.
+std::string saved_text(const PairedGain& gain) {
+  const bool fewer = p_of_saved(gain) <= kSignificant;
+  return fmt::format("{}: {} of {} held-out runs diverged instead of all (p = {:.2g}); {}",
+                     fewer ? "use them" : "undecided", gain.diverged, gain.sequences,
+                     p_of_saved(gain), kNoGain);
 }
 
 }  // namespace
@@ -80,6 +95,10 @@ PairedGain paired_gain(const ResponseTable& table, const Objective& objective, s
   PairedGain result;
   result.sequences = cases.size();
   result.all_diverged = all_diverged(table);
+  result.defaults_diverged = defaults_all_diverged(table);
+  result.diverged = static_cast<std::size_t>(
+      std::ranges::count_if(cases, [&](std::size_t i) { return table.runs[point][i].diverged; }));
+  if (result.defaults_diverged) return result;
   result.gain = gain(cases);
   if (cases.size() < kFewestPairs) return result;
   result.p = paired_test(differences).p;
@@ -95,6 +114,9 @@ PairedGain paired_gain(const ResponseTable& table, const Objective& objective, s
 }
 
 Verdict verdict_of(const PairedGain& held_out) {
+  if (held_out.defaults_diverged && !held_out.all_diverged) {
+    return p_of_saved(held_out) <= kSignificant ? Verdict::kUseThem : Verdict::kUndecided;
+  }
   if (!held_out.gain || held_out.all_diverged || held_out.sequences < 2) {
     return Verdict::kUndecided;
   }
@@ -112,11 +134,12 @@ std::string verdict_text(const PairedGain& held_out) {
     return "not validated: no sequence was held out, and a gain on the sequences that were tuned "
            "on may be overfitting";
   }
-  if (!held_out.gain) return "not validated: the objective has no gain on the held-out sequences";
   if (held_out.all_diverged) {
     return "undecided: every held-out run diverged or failed, with the defaults and with the tuned "
            "values";
   }
+  if (held_out.defaults_diverged) return saved_text(held_out);
+  if (!held_out.gain) return "not validated: the objective has no gain on the held-out sequences";
   const std::string change = change_text(*held_out.gain);
   if (held_out.sequences == 1) {
     return fmt::format("nothing can be concluded from one held-out sequence ({} on it)", change);

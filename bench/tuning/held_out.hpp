@@ -18,7 +18,9 @@ struct PairedGain {
   /// 95 %, of the gain: bootstrap over sequences, each with both its runs; empty below
   /// `kFewestPairs` sequences.
   Interval interval;
-  bool all_diverged = false;  ///< every run, of both
+  bool all_diverged = false;       ///< every run, of both
+  bool defaults_diverged = false;  ///< every run with the defaults: there is no gain
+  std::size_t diverged = 0;        ///< runs of the point
   double p = 1.0;  ///< of the sign-flip test over sequences (bench/metrics/paired_test.hpp)
 };
 
@@ -26,7 +28,8 @@ PairedGain paired_gain(const ResponseTable& table, const Objective& objective, s
 
 /// What the held-out sequences say of tuned values.
 enum class Verdict {
-  kUseThem,    ///< better: the interval and the test exclude zero
+  kUseThem,    ///< better: the interval and the test exclude zero; or, where every run with the
+               ///< defaults diverged, significantly fewer diverge (McNemar's test)
   kDoNotUse,   ///< worse, or no difference that is significant
   kUndecided,  ///< no sequences, or too few to conclude
 };

@@ -210,6 +210,16 @@ bool all_diverged(const ResponseTable& table) {
   return diverged(table.default_runs) && std::ranges::all_of(table.runs, diverged);
 }
 
+bool defaults_all_diverged(const ResponseTable& table) {
+  std::size_t diverged = 0;
+  for (const RunScore& run : table.default_runs) {
+    if (!run.invalid.empty()) continue;
+    if (!run.diverged) return false;
+    ++diverged;
+  }
+  return diverged > 0;
+}
+
 std::vector<std::uint64_t> seeds_of(const ResponseTable& table) {
   std::vector<std::uint64_t> seeds;
   for (const ResponseCase& each : table.cases) append_new(seeds, each.seed);

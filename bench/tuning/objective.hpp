@@ -98,6 +98,14 @@ std::vector<std::string> failed_lines(const ResponseTable& table);
 /// nothing about its parameters.
 bool all_diverged(const ResponseTable& table);
 
+/// Whether there are runs with the defaults and every valid one diverged: a gain over them, which
+/// compares with the penalty, means nothing.
+bool defaults_all_diverged(const ResponseTable& table);
+
+/// What a report says then.
+inline constexpr const char* kNoGain =
+    "every run with the default values diverged, so that a gain over them means nothing";
+
 /// The seeds of the table's cases, in the order in which they appear.
 std::vector<std::uint64_t> seeds_of(const ResponseTable& table);
 

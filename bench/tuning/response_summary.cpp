@@ -189,6 +189,7 @@ std::string response_markdown(const ResponseTable& table, const Objective& objec
       figure_text(best->objective, best->objective_interval), objective.score,
       figure_text(median(scores_of(table.runs[best->point], cases_of(table, "")))),
       figure_text(best->defaults));
+  if (best->defaults_diverged) text += fmt::format("No gain: {}.\n", kNoGain);
   if (best->gain) {
     text += fmt::format("Reduction by {} on these sequences, among which the best was chosen.\n",
                         percent_text(best->gain, best->gain_interval));

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "bench/tuning/batch_progress.hpp"
 #include "bench/tuning/optimizer.hpp"
+#include "bench/tuning/tune_jobs.hpp"
 
 namespace aims {
 namespace {
@@ -170,10 +173,15 @@ std::size_t expected_jobs(const TuneTask& task) {
 RunOnSequences run_by_jobs(JobRunner& runner, const JobObserver& observer,
                            const std::vector<Objective>& objectives, std::size_t expected) {
   const auto batches = std::make_shared<BatchProgress>(expected);
-  return [&runner, observer, objectives, batches](
+  const auto asked_for = std::make_shared<std::set<std::string>>();
+  return [&runner, observer, objectives, batches, asked_for](
              std::span<const EstimatorSpec> estimators,
              std::span<const ScenarioSeed> sequences) -> Result<std::optional<SequenceScores>> {
     const std::vector<Job> jobs = jobs_of(estimators, sequences);
+    for (const Job& job : jobs) asked_for->insert(job.id);
+    if (auto listed = write_tune_jobs(runner.store().path(), *asked_for); !listed) {
+      return tl::unexpected(listed.error());
+    }
     const auto run = runner.run(jobs, [&](const JobProgress& progress) {
       return observer(batches->overall(jobs.size(), progress));
     });

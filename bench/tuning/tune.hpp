@@ -43,8 +43,9 @@ Result<TuneResult> tune(const TuneTask& task, const RunOnSequences& run);
 /// is held out (of several objectives about a population of points).
 std::size_t expected_jobs(const TuneTask& task);
 
-/// Runs estimators as jobs, those that `runner` has not stored yet, and reads their scores. The
-/// observer is told of all batches as of one work of `expected` jobs.
+/// Runs estimators as jobs, those that `runner` has not stored yet, and reads their scores; its
+/// store lists them (bench/tuning/tune_jobs.hpp). The observer is told of all batches as of one
+/// work of `expected` jobs.
 RunOnSequences run_by_jobs(JobRunner& runner, const JobObserver& observer,
                            const std::vector<Objective>& objectives, std::size_t expected);
 

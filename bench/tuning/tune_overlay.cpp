@@ -57,7 +57,9 @@ std::string overlay_text(const TuneResult& result) {
   const PairedGain tuned =
       paired_gain(result.tables.front(), task.plan.objectives.front(), result.chosen.front());
   text += fmt::format("# tuned on {}: {} there\n", sequences_text(task.sequences),
-                      tuned.gain ? change_text(*tuned.gain) : "no figure");
+                      tuned.defaults_diverged ? kNoGain
+                      : tuned.gain            ? change_text(*tuned.gain)
+                                              : std::string("no figure"));
   if (!result.held_out.empty()) {
     text += fmt::format("# held out {}\n", sequences_text(task.held_out));
   }

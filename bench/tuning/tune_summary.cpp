@@ -64,6 +64,9 @@ std::string markdown_of(const TuneResult& result, const std::vector<std::string>
   if (!result.complete) text += "**Interrupted: only finished points are included.**\n\n";
   if (!result.chosen.empty()) {
     text += fmt::format("**Tuned values: {}.**\n\n", held_out_verdict(result));
+    if (defaults_all_diverged(result.tables.front())) {
+      text += fmt::format("**On the sequences tuned on, {}.**\n\n", kNoGain);
+    }
   }
   for (const Objective& objective : task.plan.objectives) {
     text += fmt::format("- objective: {}\n", text_of(objective));
@@ -114,7 +117,9 @@ std::vector<std::string> outcome_row(const std::string& name, const ResponseTabl
           fmt::format("{}", gain.sequences),
           figure_text(objective_at(table, objective, kDefaults, all)),
           figure_text(objective_at(table, objective, point, all)),
-          gain.gain ? change_text(*gain.gain) : "-",
+          gain.defaults_diverged ? "no meaning: all defaults diverged"
+          : gain.gain            ? change_text(*gain.gain)
+                                 : "-",
           bounded ? fmt::format("{} to {}", change_text(*gain.interval.low),
                                 change_text(*gain.interval.high))
                   : "-"};
@@ -151,17 +156,19 @@ Json outcome_json(const TuneResult& result, const std::vector<double>& values, s
 }  // namespace
 
 Json tune_json(const TuneResult& result) {
-  Json json = {{"schema", "aims.tune/1"},
-               {"estimator", text_of(result.task.estimator)},
-               {"complete", result.complete},
-               {"converged", result.converged},
-               {"points", result.generation.size()},
-               {"tuned_on", result.task.sequences.size()},
-               {"held_out", result.task.held_out.size()},
-               {"verdict", nullptr},
-               {"objectives", Json::array()},
-               {"defaults", nullptr},
-               {"chosen", Json::array()}};
+  Json json = {
+      {"schema", "aims.tune/1"},
+      {"estimator", text_of(result.task.estimator)},
+      {"complete", result.complete},
+      {"converged", result.converged},
+      {"points", result.generation.size()},
+      {"tuned_on", result.task.sequences.size()},
+      {"held_out", result.task.held_out.size()},
+      {"verdict", nullptr},
+      {"defaults_diverged", !result.tables.empty() && defaults_all_diverged(result.tables.front())},
+      {"objectives", Json::array()},
+      {"defaults", nullptr},
+      {"chosen", Json::array()}};
   for (const Objective& each : result.task.plan.objectives) {
     json["objectives"].push_back(text_of(each));
   }
@@ -214,6 +221,9 @@ std::string front_verdict(const TuneResult& result) {
     return "not validated: no sequence was held out, and a gain on the sequences that were tuned "
            "on "
            "may be overfitting";
+  }
+  if (defaults_all_diverged(result.held_out.front())) {
+    return fmt::format("undecided: on the held-out sequences, {}", kNoGain);
   }
   std::size_t better = 0;
   for (std::size_t k = 0; k < result.chosen.size(); ++k) {

@@ -17,6 +17,13 @@ namespace {
 constexpr std::size_t kColumns = 8;
 constexpr double kNormTolerance = 1e-3;
 
+/// "1700000000123456789', likely in ns": of whole numbers, their digits tell the unit.
+std::string likely_unit(std::string_view stamp) {
+  if (stamp.find_first_not_of("0123456789") != std::string_view::npos) return "";
+  if (stamp.size() < 12) return "";
+  return fmt::format(", likely in {}", stamp.size() < 15 ? "ms" : stamp.size() < 18 ? "us" : "ns");
+}
+
 Result<StampedPose> parse_line(std::string_view line, PoseRules rules) {
   const bool strict = rules == PoseRules::kStrict;
   const std::vector<std::string_view> words = words_of(line);
@@ -25,7 +32,10 @@ Result<StampedPose> parse_line(std::string_view line, PoseRules rules) {
         fmt::format("expected 8 columns 'stamp x y z qx qy qz qw', found {}", words.size()));
   }
   const auto stamp = parse_stamp(words[0]);
-  if (!stamp) return failure(fmt::format("expected a stamp in seconds, found '{}'", words[0]));
+  if (!stamp) {
+    return failure(
+        fmt::format("expected a stamp in seconds, found '{}'{}", words[0], likely_unit(words[0])));
+  }
   std::array<double, kColumns> v{};
   for (std::size_t i = 1; i < kColumns; ++i) {
     const auto number = parse_number(words[i], strict);

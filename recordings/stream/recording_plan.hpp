@@ -20,6 +20,7 @@ struct RecordingPlan {
   RecordingSetup setup;
   CloudReading cloud;
   double force_scale = 1.0;  ///< scales specific force to m/s^2
+  double turn_scale = 1.0;   ///< scales angular velocity to rad/s
   LegStreamConfig legs;
   JointRule joints;
   ContactRule contacts;

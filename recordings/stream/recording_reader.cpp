@@ -137,6 +137,7 @@ void RecordingReader::Impl::take_imu(const MessageView& view, std::vector<Delive
   ImuSample sample = *recorded;
   sample.stamp = stamp_of(Role::kImu, recorded->stamp, config.imu_delay);
   if (plan.force_scale != 1.0) sample.specific_force *= plan.force_scale;
+  if (plan.turn_scale != 1.0) sample.angular_velocity *= plan.turn_scale;
   const bool finite = sample.angular_velocity.allFinite() && recorded->specific_force.allFinite();
   if (!finite) ++counts["imu_not_finite"];
   legs.add_imu(sample);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "recordings/clouds/scan_period.hpp"
 #include "recordings/median.hpp"
@@ -149,13 +150,18 @@ void RecordingSurvey::decide_imu(RecordingPlan& plan) {
   for (const std::string& type : unstamped_states()) {
     notes.push_back(fmt::format("{} has no stamp: record times are used", type));
   }
-  const double turning = upper_median(turn_rates_).value_or(0.0);
-  if (largest_turn_rate_ > kMaxTurnRate || turning > kFastTurning) {
+  if (config_.gyro_unit == GyroUnit::kDegrees) {
+    plan.turn_scale = std::numbers::pi / 180.0;
+    notes.push_back("angular velocity in deg/s (recording.gyro_unit): converted to rad/s");
+  }
+  const double turning = plan.turn_scale * upper_median(turn_rates_).value_or(0.0);
+  const double fastest = plan.turn_scale * largest_turn_rate_;
+  if (fastest > kMaxTurnRate || turning > kFastTurning) {
     notes.warn("gyroscope perhaps in deg/s",
                fmt::format("angular velocity up to {:.3g}, {:.3g} in the median: rad/s are "
-                           "expected, are these deg/s? Convert them in the driver (of a table: "
-                           "gyro_unit)",
-                           largest_turn_rate_, turning));
+                           "expected, are these deg/s? Then set recording.gyro_unit=deg/s (of a "
+                           "table: gyro_unit of its mapping)",
+                           fastest, turning));
   }
 }
 

@@ -98,13 +98,13 @@ class Chooser {
       std::vector<std::string> names;
       for (const BagConnection& each : connections_) names.push_back(each.topic);
       const std::string near = near_match(topic, names);
-      return failure(fmt::format("{}: no topic '{}' (topics.{}){}; it has {}", bag_.string(), topic,
-                                 request.key, near.empty() ? "" : "; did you mean '" + near + "'?",
-                                 topic_list(connections_)));
+      return failure(fmt::format(
+          "{}: no topic '{}' (recording.topics.{}){}; it has {}", bag_.string(), topic, request.key,
+          near.empty() ? "" : "; did you mean '" + near + "'?", topic_list(connections_)));
     }
     if (!request.is_suitable(*found)) {
-      return failure(fmt::format("{}: topic '{}' (topics.{}) is {}, expected {}", bag_.string(),
-                                 topic, request.key, found->type, request.expected));
+      return failure(fmt::format("{}: topic '{}' (recording.topics.{}) is {}, expected {}",
+                                 bag_.string(), topic, request.key, found->type, request.expected));
     }
     return topic;
   }
@@ -121,14 +121,15 @@ class Chooser {
     if (topics.size() == 1) return *topics.begin();
     std::string list;
     for (const std::string& topic : topics) list += (list.empty() ? "" : ", ") + topic;
-    return failure(fmt::format("{}: several topics are {}: {}; choose one with topics.{} (or none)",
-                               bag_.string(), request.expected, list, request.key));
+    return failure(
+        fmt::format("{}: several topics are {}: {}; choose one with recording.topics.{} (or none)",
+                    bag_.string(), request.expected, list, request.key));
   }
 
   tl::unexpected<Error> missing(const Request& request) const {
-    return failure(fmt::format("{}: no topic is {} (topics.{}; 'none' to do without); it has {}",
-                               bag_.string(), request.expected, request.key,
-                               topic_list(connections_)));
+    return failure(
+        fmt::format("{}: no topic is {} (recording.topics.{}; 'none' to do without); it has {}",
+                    bag_.string(), request.expected, request.key, topic_list(connections_)));
   }
 
   const BagConnection* find(std::string_view topic) const {

@@ -25,6 +25,8 @@ struct TrajectoryFileOptions {
   std::string preferred_topic = {};
   /// For poses without stamps: the first list of the same length is used.
   std::vector<StampList> stamps = {};
+  /// By how many decimals the unit of stamps in text files lies below seconds: 9 of nanoseconds.
+  int stamp_decimals = 0;
 };
 
 /// A trajectory and its origin.

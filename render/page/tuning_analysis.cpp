@@ -35,6 +35,7 @@ Json best_json(const BestPoint& best) {
           {"objective_interval", interval_json(best.objective_interval)},
           {"defaults", json_of(best.defaults)},
           {"gain", json_of(best.gain)},
+          {"defaults_diverged", best.defaults_diverged},
           {"gain_interval", interval_json(best.gain_interval)},
           {"distance", best.distance}};
 }

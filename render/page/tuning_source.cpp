@@ -11,6 +11,7 @@
 #include "bench/scenario/seeds.hpp"
 #include "bench/scoring/json_text.hpp"
 #include "bench/tuning/sweep_plan.hpp"
+#include "bench/tuning/tune_jobs.hpp"
 #include "bench/tuning/tune_plan.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/csv_columns.hpp"
@@ -119,8 +120,14 @@ Result<TuningSource> read_tune(const fs::path& folder) {
   source.held_out.plans = source.units.plans;
   source.points = points_in(folder / kTunePoints, *plan);
   const JobStore units(folder);
+  const auto asked_for = read_tune_jobs(folder);
   std::size_t broken = 0;
+  std::size_t earlier = 0;
   for (const std::string& id : units.ids()) {
+    if (asked_for && !asked_for->contains(id)) {
+      ++earlier;
+      continue;
+    }
     auto unit = unit_of(units, id);
     if (!unit) {
       ++broken;
@@ -130,6 +137,10 @@ Result<TuningSource> read_tune(const fs::path& folder) {
     (tuned ? source.units : source.held_out).jobs.push_back(std::move(*unit));
   }
   if (broken > 0) source.notes.push_back(fmt::format("{} job files cannot be read", broken));
+  if (earlier > 0) {
+    source.notes.push_back(
+        fmt::format("{} jobs of an earlier plan in this folder do not count", earlier));
+  }
   return source;
 }
 

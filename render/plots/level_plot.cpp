@@ -111,7 +111,10 @@ Panel panel_of(const LevelPlot& plot, const LevelPanel& source, const Axis& leve
   Panel panel{.title = source.title, .x = levels, .y = value_axis(source)};
   panel.height = kPanelHeight;
   const double middle = 0.5 * (static_cast<double>(source.curves.size()) - 1.0);
-  const std::vector<Stroke> strokes = strokes_of(plot, source);
+  std::vector<Stroke> strokes = strokes_of(plot, source);
+  if (plot.unjoined) {
+    for (Stroke& each : strokes) each.width = 0.0;
+  }
   for (std::size_t i = 0; i < source.curves.size(); ++i) {
     add_fit(source.curves[i], strokes[i].color, panel);
     add_curve(source.curves[i], strokes[i], static_cast<double>(i) - middle, panel);

@@ -39,6 +39,7 @@ struct LevelPlot {
   std::string subtitle;
   std::string level_label;  ///< with its unit in square brackets
   bool logarithmic_levels = false;
+  bool unjoined = false;       ///< markers without lines between them
   bool of_estimators = false;  ///< the curves are named after estimators and have their colours
   std::vector<LevelPanel> panels;
 };

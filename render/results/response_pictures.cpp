@@ -66,6 +66,7 @@ Result<bool> draw_curve(const ResponseTable& table, const Objective& objective, 
   }
   if (slices.empty()) return false;
   plot.title = table.ranges[i].key;
+  plot.unjoined = true;
   plot.subtitle = curve_text(table, slices);
   plot.level_label = fmt::format("{} (default {})", table.ranges[i].key, table.defaults[i]);
   plot.logarithmic_levels = table.ranges[i].log;

@@ -87,6 +87,29 @@ RouteConfig route_in(const SceneConfig& scene, const RouteConfig& route) {
   return followed;
 }
 
+const char* length_key(SceneKind kind) {
+  switch (kind) {
+    case SceneKind::kTunnel:
+      return "scene.tunnel.length";
+    case SceneKind::kGarage:
+      return "scene.garage.approach";
+    case SceneKind::kJunction:
+      return "scene.junction.length";
+    case SceneKind::kLoop:
+      return "scene.loop.length";
+    case SceneKind::kCorridor:
+      break;
+  }
+  return "scene.corridor.length";
+}
+
+std::string route_hint(SceneKind kind) {
+  return fmt::format(
+      "{} and route.points go together: change both, or set route.follow_scene=true, which walks "
+      "to the far end and back",
+      length_key(kind));
+}
+
 namespace {
 
 constexpr double kSlack = 0.01;       ///< by which loose objects at a point may be nearer [m]

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/error.hpp"
@@ -18,6 +19,13 @@ std::vector<RoutePoint> points_along(const SceneConfig& scene);
 
 /// The route with its points along the scene when it is to follow it; else as it is.
 RouteConfig route_in(const SceneConfig& scene, const RouteConfig& route);
+
+/// What makes a scene longer: "scene.corridor.length", "scene.garage.approach".
+const char* length_key(SceneKind kind);
+
+/// "scene.corridor.length and route.points go together: ...": what to change where a scene and the
+/// points of its route do not fit.
+std::string route_hint(SceneKind kind);
 
 /// The room that a walking robot takes.
 struct BodySize {

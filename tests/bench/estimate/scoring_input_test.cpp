@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <numbers>
 
 #include "bench/scenario/scoring_config.hpp"
 #include "core/files/tum.hpp"
@@ -195,6 +196,59 @@ TEST_F(ScoringInputs, TheTimeOffsetIsAddedToTheEstimates) {
   EXPECT_FALSE(score_trajectories(*read_scoring_input(request)));
   request.time_offset_s = -1000.0;
   EXPECT_EQ(score_trajectories(*read_scoring_input(request))->estimates[0].scores.ate_m, 0.0);
+}
+
+TEST_F(ScoringInputs, StampsOfAnotherUnitAreNamedAndRead) {
+  const auto text_in = [](double seconds, double begin) {
+    std::string text = "# stamp x y z q\n";
+    for (const StampedPose& each : bend()) {
+      const Eigen::Vector3d& p = each.pose.translation;
+      const auto& q = each.pose.rotation;
+      text +=
+          fmt::format("{:.0f} {} {} {} {} {} {} {}\n", (begin + to_seconds(each.stamp)) / seconds,
+                      p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
+    }
+    return text;
+  };
+  ScoringRequest request = plain();
+  request.estimates = {file("ms.tum", text_in(1e-3, 0.0))};
+  const auto scored = score_trajectories(*read_scoring_input(request));
+  ASSERT_TRUE(scored) << scored.error().message;
+  EXPECT_NE(std::ranges::find_if(scored->notes,
+                                 [](const std::string& note) {
+                                   return note.find("--stamp-unit ms reads") != std::string::npos;
+                                 }),
+            scored->notes.end());
+  request.stamp_unit = "ms";
+  EXPECT_LT(*score_trajectories(*read_scoring_input(request))->estimates[0].scores.ate_m, 1e-12);
+  request.estimates = {file("us.tum", text_in(1e-6, 1.7e9))};
+  request.stamp_unit = "s";
+  EXPECT_NE(message_of(request).find("likely in us: --stamp-unit us"), std::string::npos)
+      << message_of(request);
+  request.stamp_unit = "us";
+  request.time_offset_s = -1.7e9;
+  EXPECT_LT(*score_trajectories(*read_scoring_input(request))->estimates[0].scores.ate_m, 1e-12);
+}
+
+TEST_F(ScoringInputs, ATurnedBodyFrameIsNamedWithTheExtrinsicThatCorrectsIt) {
+  const Pose T_body_estimate = {so3_exp(Eigen::Vector3d(0.0, 0.0, 0.5 * std::numbers::pi)),
+                                Eigen::Vector3d::Zero()};
+  Trajectory turned = bend();
+  for (StampedPose& each : turned) each.pose = each.pose * T_body_estimate;
+  ScoringRequest request = plain();
+  request.estimates = {file("turned.tum", tum_text(turned))};
+  const auto scored = score_trajectories(*read_scoring_input(request));
+  ASSERT_TRUE(scored);
+  const auto hint = std::ranges::find_if(scored->notes, [](const std::string& note) {
+    return note.find("turned by 90 deg about z") != std::string::npos;
+  });
+  ASSERT_NE(hint, scored->notes.end());
+  constexpr std::string_view kOption = "--extrinsic '";
+  const std::size_t begin = hint->find(kOption) + kOption.size();
+  request.extrinsic = hint->substr(begin, hint->find('\'', begin) - begin);
+  const auto again = score_trajectories(*read_scoring_input(request));
+  EXPECT_LT(*again->estimates[0].scores.ate_m, 1e-4) << request.extrinsic;
+  for (const std::string& note : again->notes) EXPECT_EQ(note.find("turned by"), std::string::npos);
 }
 
 TEST_F(ScoringInputs, EstimatesOfOneNameAreNumbered) {

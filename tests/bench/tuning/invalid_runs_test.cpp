@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "bench/tuning/analysis.hpp"
 #include "bench/tuning/held_out.hpp"
 #include "bench/tuning/objective.hpp"
+#include "bench/tuning/response_summary.hpp"
 #include "bench/tuning/sensitivity.hpp"
 
 namespace aims {
@@ -79,6 +81,38 @@ TEST(FailedRunsOfTuning, OfAllPointsSayNothingAboutParameters) {
   EXPECT_EQ(verdict_of(paired_gain(table, Objective(), 0)), Verdict::kUndecided);
   table.runs.back().back() = {0.1};
   EXPECT_FALSE(all_diverged(table));
+}
+
+// The objective of diverged defaults is the penalty, which anything reduces.
+TEST(FailedRunsOfTuning, OfTheDefaultsAloneLeaveNoGain) {
+  ResponseTable table;
+  table.ranges = {{.key = "a", .low = 0.0, .high = 1.0}};
+  table.defaults = {0.5};
+  std::vector<RunScore> tuned;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    table.cases.push_back({"corridor", "corridor", seed});
+    table.default_runs.push_back({40.0, true});
+    tuned.push_back({0.1, false});
+  }
+  table.points = {{1.0}};
+  table.runs = {tuned};
+  ASSERT_TRUE(defaults_all_diverged(table));
+  const auto best = best_point(table, Objective());
+  ASSERT_TRUE(best);
+  EXPECT_TRUE(best->defaults_diverged);
+  EXPECT_FALSE(best->gain);
+  EXPECT_NE(response_markdown(table, Objective()).find(kNoGain), std::string::npos);
+  const PairedGain gain = paired_gain(table, Objective(), 0);
+  EXPECT_FALSE(gain.gain);
+  EXPECT_EQ(verdict_of(gain), Verdict::kUseThem) << "6 of 6 saved: p = 2 / 2^6";
+  EXPECT_NE(verdict_text(gain).find("0 of 6 held-out runs diverged instead of all (p = 0.031)"),
+            std::string::npos)
+      << verdict_text(gain);
+  table.runs[0][3].diverged = true;
+  EXPECT_EQ(verdict_of(paired_gain(table, Objective(), 0)), Verdict::kUndecided);
+  table.default_runs[0].diverged = false;
+  EXPECT_FALSE(defaults_all_diverged(table));
+  EXPECT_TRUE(best_point(table, Objective())->gain);
 }
 
 TEST(HeldOutVerdict, IsUndecidedWhereTheTestCannotConfirmTheInterval) {

@@ -42,6 +42,8 @@ TEST(Tum, ErrorsNameFileAndLine) {
   EXPECT_EQ(message_of("x 0 0 0 0 0 0 1\n"), "t.tum:1: expected a stamp in seconds, found 'x'");
   EXPECT_EQ(message_of("1e300 0 0 0 0 0 0 1\n"),
             "t.tum:1: expected a stamp in seconds, found '1e300'");
+  EXPECT_EQ(message_of("1700000000123456789 0 0 0 0 0 0 1\n"),
+            "t.tum:1: expected a stamp in seconds, found '1700000000123456789', likely in ns");
   EXPECT_EQ(message_of("1 nan 0 0 0 0 0 1\n"),
             "t.tum:1: column 2: expected a finite number, found 'nan'");
   EXPECT_EQ(message_of("1 0 0 0 0 0 0 2\n"),

@@ -173,7 +173,7 @@ TEST(BagCheck, ConfiguredExtrinsicsReplaceThoseOfTf) {
 
 TEST(BagCheck, ARefusalIsSaidInItsOwnWords) {
   BagInfo bag = good_bag();
-  bag.refusal = "b.bag: several topics are sensor_msgs/Imu: /a, /b; choose one with topics.imu";
+  bag.refusal = "b.bag: several topics are sensor_msgs/Imu: /a, /b; choose one with recording.topics.imu";
   const std::string text = check_text(check_bag(bag));
   EXPECT_NE(text.find("aims: MISSING: readable by aims: " + *bag.refusal + "\n"), std::string::npos)
       << text;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "recordings/messages/message_types.hpp"
 #include "tests/recordings/stream/recorded_deliveries.hpp"
@@ -39,7 +40,7 @@ TEST_F(RecordingReaderTest, SeveralSuitableTopicsAreAnErrorThatNamesThem) {
   EXPECT_EQ(test::read_recording(bag()).error,
             bag().string() +
                 ": several topics are sensor_msgs/PointCloud2 or a livox CustomMsg: "
-                "/left/points, /right/points; choose one with topics.lidar (or none)");
+                "/left/points, /right/points; choose one with recording.topics.lidar (or none)");
   RecordingConfig config;
   config.topics.lidar = "/left/points";
   EXPECT_EQ(test::read_recording(bag(), config).error, "");
@@ -150,17 +151,17 @@ TEST_F(RecordingReaderTest, AMissingTopicIsAnErrorThatListsTheExistingOnes) {
   EXPECT_EQ(test::read_recording(bag()).error,
             bag().string() +
                 ": no topic is sensor_msgs/PointCloud2 or a livox CustomMsg "
-                "(topics.lidar; 'none' to do without); it has /imu (sensor_msgs/Imu)");
+                "(recording.topics.lidar; 'none' to do without); it has /imu (sensor_msgs/Imu)");
   RecordingConfig config;
   config.topics.lidar = "/imux";
   EXPECT_EQ(test::read_recording(bag(), config).error,
             bag().string() +
-                ": no topic '/imux' (topics.lidar); did you mean '/imu'?; it has /imu "
+                ": no topic '/imux' (recording.topics.lidar); did you mean '/imu'?; it has /imu "
                 "(sensor_msgs/Imu)");
   config.topics.lidar = "/imu";
   EXPECT_EQ(test::read_recording(bag(), config).error,
             bag().string() +
-                ": topic '/imu' (topics.lidar) is sensor_msgs/Imu, expected "
+                ": topic '/imu' (recording.topics.lidar) is sensor_msgs/Imu, expected "
                 "sensor_msgs/PointCloud2 or a livox CustomMsg");
   config.topics.lidar = "none";
   EXPECT_EQ(test::read_recording(bag(), config).error, "");
@@ -434,6 +435,27 @@ TEST_F(RecordingReaderTest, ImuUnitsFollowFromTheNormOrTheConfiguration) {
   RecordingConfig config;
   config.imu_unit = ImuUnit::kGravities;
   EXPECT_DOUBLE_EQ(first_force(read(3.0, config)), 3.0 * 9.80665);
+}
+
+TEST_F(RecordingReaderTest, AGyroInDegreesIsConvertedWhereTheConfigurationSaysSo) {
+  RobotRecording robot(bag());
+  ImuSample sample;
+  sample.stamp = kStart;
+  sample.angular_velocity = {90.0, 0.0, -180.0};
+  sample.specific_force = {0.0, 0.0, 9.81};
+  for (int k = 0; k < 5; ++k, sample.stamp += 20 * kMillisecond) {
+    robot.add("/imu", imu_type(), sample.stamp + kMillisecond,
+              imu_message({0, sample.stamp, "imu"}, sample));
+  }
+  robot.add_clouds(kStart, 3);
+  robot.close();
+  RecordingConfig config;
+  const Recording as_given = test::read_recording(bag(), config);
+  EXPECT_TRUE(as_given.noted("recording.gyro_unit=deg/s"));
+  config.gyro_unit = GyroUnit::kDegrees;
+  const Recording read = test::read_recording(bag(), config);
+  const Eigen::Vector3d turn = test::imu_of(read.deliveries).at(0).angular_velocity;
+  EXPECT_NEAR((turn - Eigen::Vector3d(0.5, 0.0, -1.0) * std::numbers::pi).norm(), 0.0, 1e-12);
 }
 
 }  // namespace

@@ -235,9 +235,11 @@ TEST_F(RobotStates, AStateWithoutTheKnownFieldsIsNoState) {
   EXPECT_TRUE(read.setup.topics.joint_states.empty());
   config.topics.joint_states = "/low_state";
   const std::string error = test::read_recording(bag(), config).error;
-  EXPECT_NE(error.find("topic '/low_state' (topics.joint_states) is unitree_legged_msgs/LowState, "
-                       "expected sensor_msgs/JointState or a robot's state with joints"),
-            std::string::npos)
+  EXPECT_NE(
+      error.find(
+          "topic '/low_state' (recording.topics.joint_states) is unitree_legged_msgs/LowState, "
+          "expected sensor_msgs/JointState or a robot's state with joints"),
+      std::string::npos)
       << error;
 }
 

@@ -14,6 +14,7 @@
 
 #include "bench/tuning/analysis.hpp"
 #include "bench/tuning/sweep_summary.hpp"
+#include "bench/tuning/tune_jobs.hpp"
 #include "estimator/degeneracy/degeneracy.hpp"
 #include "tests/render/page/decoded_page.hpp"
 #include "tests/render/page/written_run.hpp"
@@ -296,12 +297,32 @@ TEST(TuningPage, ATuningKeepsWhatWasHeldOutApart) {
   EXPECT_EQ(held, 2);
 }
 
+TEST(TuningPage, JobsOfAnEarlierPlanInTheFolderDoNotCount) {
+  const TemporaryFolder folder;
+  Units units(folder.path());
+  write_tune_plan(folder.path());
+  Json failed = unit("walk", 1, {}, 0.0);
+  failed["outcome"] = "failed";
+  failed.erase("scores");
+  units.add(failed);  // as of a plan whose scene could not be built
+  for (const int seed : {1, 2}) {
+    units.add(unit("walk", seed, {}, 0.3));
+    units.add(unit("walk", seed, {1.0, 10.0}, 0.2));
+  }
+  ASSERT_TRUE(write_tune_jobs(folder.path(), {"0002", "0003", "0004", "0005"}));
+  const DecodedPage page = page_of(folder.path());
+  EXPECT_EQ(page.json["jobs"]["failed"], 0);
+  EXPECT_EQ(page.json["jobs"]["done"], 4);
+  EXPECT_TRUE(contains(page.json["notes"][0], "1 jobs of an earlier plan"));
+}
+
 TEST(TuningPage, ATuningLeadsWithWhatHeldOutSequencesSay) {
   const TemporaryFolder folder;
   Units units(folder.path());
   put(folder.path() / "tune.yaml",
       "params: [\"degeneracy.eta=0:6\", \"degeneracy.kappa=log(1,100)\"]\n"
-      "scenarios: [walk]\nseeds: 1\nheld_out: {seeds: 11-18}\nobjectives:\n  - {score: ate_yaw_m}\n");
+      "scenarios: [walk]\nseeds: 1\nheld_out: {seeds: 11-18}\nobjectives:\n  - {score: "
+      "ate_yaw_m}\n");
   units.add(unit("walk", 1, {}, 0.3));
   units.add(unit("walk", 1, {1.0, 10.0}, 0.2));
   for (int seed = 11; seed <= 18; ++seed) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sim/environment/scene_config.hpp"
+#include "sim/simulation.hpp"
 
 namespace aims {
 namespace {
@@ -49,6 +50,18 @@ TEST(RouteCheck, AWiderRobotNeedsMoreRoom) {
 TEST(RouteCheck, APointOutsideTheBuildingIsNamedWithTheExtentOfTheFloor) {
   const std::string message = refusal(corridor(2.0), route_of({{0.0, 0.0}, {30.0, 0.0}}));
   EXPECT_TRUE(mentions(message, {"route.points.1", "(30, 0)", "outside the building", "(5.2,"}))
+      << message;
+}
+
+TEST(RouteCheck, AScenesLengthAndItsRouteAreNamedTogether) {
+  SimulationConfig config;
+  config.scene = corridor(2.0);
+  config.route = route_of({{0.0, 0.0}, {30.0, 0.0}});
+  const auto simulation = Simulation::create(config, 1);
+  ASSERT_FALSE(simulation);
+  const std::string& message = simulation.error().message;
+  EXPECT_TRUE(mentions(message, {"outside the building", "scene.corridor.length", "route.points",
+                                 "route.follow_scene=true"}))
       << message;
 }
 

@@ -257,8 +257,9 @@ function truthLine(data: RunPayload): HTMLElement | null {
     { class: "soft" },
     `From the truth: ${formatNumber(at(truth, "median_equivalent_returns"))} equivalent returns ` +
       `along the weakest axis (median); fewer than 10 in ${fraction("n10")} of the scans, ` +
-      `fewer than 100 in ${fraction("n100")}, fewer than 1000 in ${fraction("n1000")}. Bound at the end, 1σ: ` +
-      `longitudinal ${bound("longitudinal")} m, lateral ${bound("lateral")} m, vertical ${bound("vertical")} m.`,
+      `fewer than 100 in ${fraction("n100")}, fewer than 1000 in ${fraction("n1000")}. ` +
+      "The best that any unbiased estimator could do with these sensors (posterior Cramér–Rao bound), standard deviation of the position at the end: " +
+      `${bound("longitudinal")} m along the corridor, ${bound("lateral")} m across, ${bound("vertical")} m up.`,
   );
 }
 

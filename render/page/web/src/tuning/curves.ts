@@ -17,7 +17,7 @@ function sliceLines(slices: Slice[]): Line[] {
     const name = slice.family || "all scenarios";
     const lines: Line[] = [];
     if (slice.fit) lines.push({ name: `${name}, fit`, index, marks: marksOf(slice.fit), plain: true, band: true });
-    if (slice.measured) lines.push({ name: `${name}, measured`, index, marks: marksOf(slice.measured), unjoined: slice.fit !== null });
+    if (slice.measured) lines.push({ name: `${name}, measured`, index, marks: marksOf(slice.measured), unjoined: true });
     return lines;
   });
 }

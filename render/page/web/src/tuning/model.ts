@@ -23,6 +23,8 @@ export interface Best {
   defaults: Maybe;
   gain: Maybe;
   gain_interval: Interval;
+  /** Every run with the defaults: there is no gain. */
+  defaults_diverged: boolean;
   /** Best minus default, in widths of the range. */
   distance: number[];
 }

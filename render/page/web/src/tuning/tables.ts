@@ -29,6 +29,7 @@ export function outcome(analysis: Analysis, tuned: boolean): HTMLElement {
   const gain = isNumber(best.gain)
     ? ` The defaults have ${formatNumber(best.defaults)}: ${percent(best.gain)} less` +
       `${bracket(ends(best.gain_interval), 100, " %")} on these sequences, among which the best was chosen.`
+    : best.defaults_diverged ? " No gain: every run with the default values diverged, so that a gain over them means nothing."
     : " The defaults were not run on every sequence, so that nothing is compared with them.";
   const sure = analysis.seeds < 2 ? "One seed: no intervals."
     : `Intervals: 95 % bootstraps over ${analysis.seeds} seeds${analysis.seeds < 10 ? ", too narrow for so few seeds" : ""}.`;

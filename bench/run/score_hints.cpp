@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/run/score_hints.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "bench/metrics/absolute_error.hpp"
+#include "bench/metrics/alignment.hpp"
+
+namespace aims {
+namespace {
+
+constexpr std::array<std::pair<const char*, double>, 3> kUnits = {
+    {{"ms", 1e3}, {"us", 1e6}, {"ns", 1e9}}};
+
+constexpr std::size_t kFewestPairs = 10;
+constexpr double kTurned = 10.0;     ///< of the body frame [deg]
+constexpr double kScatter = 5.0;     ///< most of the rotations about their mean, median [deg]
+constexpr double kWellFit = 0.1;     ///< ATE as a fraction of the spread of the true positions
+constexpr double kRightAngle = 3.0;  ///< from a multiple of 90 deg that is meant [deg]
+
+double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
+
+/// From the first stamp to the last [s].
+double span_of(const Trajectory& trajectory) {
+  const auto by_stamp = [](const StampedPose& a, const StampedPose& b) {
+    return a.stamp < b.stamp;
+  };
+  const auto [first, last] = std::ranges::minmax_element(trajectory, by_stamp);
+  return static_cast<double>(last->stamp) * 1e-9 - static_cast<double>(first->stamp) * 1e-9;
+}
+
+/// Root mean square distance of the true positions from their mean [m].
+double spread_of(std::span<const PosePair> pairs) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const PosePair& each : pairs) mean += each.truth.translation / double(pairs.size());
+  double sum = 0.0;
+  for (const PosePair& each : pairs) sum += (each.truth.translation - mean).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(pairs.size()));
+}
+
+/// The estimate aligned so that its attitude can be compared; empty where positions do not tell.
+std::vector<PosePair> compared(std::span<const PosePair> pairs, const ScoreConfig& config) {
+  const bool is_level = config.anchor == AlignmentKind::kStartHeading;
+  const Alignment alignment = is_level ? align_yaw(pairs) : align_se3(pairs);
+  if (!is_level && alignment.spread != PositionSpread::kFull) return {};
+  return aligned(pairs, alignment);
+}
+
+/// The rotation of the body frame with the least median distance to all of them: a medoid of some.
+Eigen::Quaterniond middle_of(const std::vector<Eigen::Quaterniond>& rotations, double& scatter) {
+  constexpr std::size_t kTried = 50;
+  Eigen::Quaterniond best = rotations.front();
+  scatter = 1e9;
+  const std::size_t step = std::max<std::size_t>(1, rotations.size() / kTried);
+  for (std::size_t i = 0; i < rotations.size(); i += step) {
+    std::vector<double> distances;
+    for (const auto& each : rotations) distances.push_back(each.angularDistance(rotations[i]));
+    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+    std::ranges::nth_element(distances, middle);
+    if (*middle >= scatter) continue;
+    scatter = *middle;
+    best = rotations[i];
+  }
+  return best;
+}
+
+/// Snapped to right angles where all three are meant: a mount as it was drawn, not as it errs.
+Eigen::Quaterniond snapped(const Eigen::Quaterniond& rotation) {
+  const Eigen::Matrix3d nearest = rotation.toRotationMatrix().array().round();
+  if (std::abs(nearest.determinant() - 1.0) > 1e-9) return rotation;
+  const Eigen::Quaterniond right(nearest);
+  return degrees(right.angularDistance(rotation)) <= kRightAngle ? right : rotation;
+}
+
+/// "90 deg about z", "120 deg about [0.58, 0.58, 0.58]".
+std::string turn_text(const Eigen::Quaterniond& rotation) {
+  const Eigen::AngleAxisd turn(rotation);
+  Eigen::Vector3d axis = turn.axis();
+  double angle = degrees(turn.angle());
+  Eigen::Index along = 0;
+  if (axis.cwiseAbs().maxCoeff(&along) > 0.999) {
+    if (axis[along] < 0.0) angle = -angle;
+    return fmt::format("{:.3g} deg about {}", angle, "xyz"[along]);
+  }
+  return fmt::format("{:.3g} deg about [{:.2f}, {:.2f}, {:.2f}]", angle, axis.x(), axis.y(),
+                     axis.z());
+}
+
+}  // namespace
+
+std::optional<std::string> stamp_unit_hint(const Trajectory& estimate, const Trajectory& truth) {
+  if (estimate.size() < 2 || truth.size() < 2) return std::nullopt;
+  const double ratio = span_of(estimate) / span_of(truth);
+  for (const auto& [unit, factor] : kUnits) {
+    const auto is_about = [](double value) { return value > 0.3 && value < 1.5; };
+    if (is_about(ratio / factor)) {
+      return fmt::format(
+          "its stamps span {:.3g} times the truth's: likely in {}, which --stamp-unit {} reads",
+          ratio, unit, unit);
+    }
+    if (is_about(1.0 / (ratio * factor))) {
+      return fmt::format(
+          "the truth's stamps span {:.3g} times its own: likely in {}; expected seconds",
+          1.0 / ratio, unit);
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> body_frame_hint(const Trajectory& estimate, const Trajectory& truth,
+                                           const ScoreConfig& config) {
+  if (config.truth == TruthContent::kPosition) return std::nullopt;
+  const auto pairs = compared_pairs(valid_part(estimate), truth, config);
+  if (pairs.size() < kFewestPairs) return std::nullopt;
+  const auto best = compared(pairs, config);
+  const auto error = ate_rmse(best);
+  if (!error || !(*error < kWellFit * spread_of(pairs))) return std::nullopt;
+  std::vector<Eigen::Quaterniond> rotations;
+  for (const PosePair& each : best) {
+    rotations.push_back(each.truth.rotation.conjugate() * each.estimate.rotation);
+  }
+  double scatter = 0.0;
+  const Eigen::Quaterniond middle = middle_of(rotations, scatter);
+  const double turned = degrees(middle.angularDistance(Eigen::Quaterniond::Identity()));
+  if (turned < kTurned || degrees(scatter) > kScatter) return std::nullopt;
+  const Eigen::Quaterniond q = snapped(middle);
+  return fmt::format(
+      "its body frame is turned by {} against the truth's: --extrinsic '0 0 0 {:.4g} {:.4g} {:.4g} "
+      "{:.4g}' takes it to the truth's (the ATE aligned by heading does not depend on it, heading "
+      "error and ATE from the start do)",
+      turn_text(q), q.x() + 0.0, q.y() + 0.0, q.z() + 0.0, q.w());
+}
+
+}  // namespace aims

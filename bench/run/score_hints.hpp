@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "bench/metrics/scores.hpp"
+#include "core/trajectory.hpp"
+
+namespace aims {
+
+/// Where the estimate's stamps span about 1e3, 1e6 or 1e9 times the truth's: their likely unit and
+/// the option that reads it, "its stamps span 1000 times the truth's: likely ms, which --stamp-unit
+/// ms reads"; of the opposite, that the truth's stamps are such.
+std::optional<std::string> stamp_unit_hint(const Trajectory& estimate, const Trajectory& truth);
+
+/// Where the positions fit and the attitude differs from the truth's by one constant rotation of
+/// the body frame, of more than 10 deg: that rotation and the --extrinsic that takes it away.
+std::optional<std::string> body_frame_hint(const Trajectory& estimate, const Trajectory& truth,
+                                           const ScoreConfig& config);
+
+}  // namespace aims
