@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/run/score_hints.hpp"
+#include "bench/scoring/score_hints.hpp"
 
 #include <fmt/format.h>
 
