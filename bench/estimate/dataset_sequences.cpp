@@ -43,15 +43,19 @@ fs::path first_match(const fs::path& pattern) {
   return first;
 }
 
+/// `alone`: the sequence is the only one of the folder. Names without that of the sequence count in
+/// the folder of the sequence alone.
 std::string truth_of(const DatasetProfile& profile, const DatasetSequence& sequence,
-                     const fs::path& folder) {
+                     const fs::path& folder, bool alone) {
   const std::string name = sequence.name;
   for (std::string pattern : profile.truth.files) {
+    const bool of_sequence = alone || pattern.find("{sequence}") != std::string::npos;
     for (std::size_t at = 0; (at = pattern.find("{sequence}", at)) != std::string::npos;) {
       pattern.replace(at, 10, name);
       at += name.size();
     }
     for (const fs::path& below : {sequence.recording, folder}) {
+      if (below == folder && !of_sequence) continue;
       const fs::path found = first_match(below / pattern);
       if (!found.empty()) return found.string();
     }
@@ -107,7 +111,9 @@ Result<std::vector<DatasetSequence>> dataset_sequences(const DatasetProfile& pro
                     "none",
                     folder.string()));
   }
-  for (DatasetSequence& each : sequences) each.truth = truth_of(profile, each, folder);
+  for (DatasetSequence& each : sequences) {
+    each.truth = truth_of(profile, each, folder, sequences.size() == 1);
+  }
   return sequences;
 }
 

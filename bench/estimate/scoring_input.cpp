@@ -199,7 +199,8 @@ Result<void> set_markers(const ScoringRequest& request, ScoringInput& input) {
   if (!end_pose) return tl::unexpected(end_pose.error());
   std::optional<Time> begin, end;
   for (const SourcedTrajectory& each : input.estimates) {
-    const Trajectory valid = valid_part(each.trajectory);
+    const ValidPart part(each.trajectory);
+    const Trajectory& valid = part.poses();
     if (valid.size() < 2) continue;
     begin = std::max(valid.front().stamp, begin.value_or(valid.front().stamp));
     end = std::min(valid.back().stamp, end.value_or(valid.back().stamp));
@@ -231,7 +232,8 @@ bool is_constant_attitude(const ScoringInput& input) {
   };
   if (std::ranges::any_of(truth, differs(truth.front().pose.rotation, 1e-9))) return false;
   return std::ranges::any_of(input.estimates, [&](const SourcedTrajectory& each) {
-    const Trajectory valid = valid_part(each.trajectory);
+    const ValidPart part(each.trajectory);
+    const Trajectory& valid = part.poses();
     return !valid.empty() &&
            std::ranges::any_of(valid, differs(valid.front().pose.rotation, kTurn));
   });
@@ -278,7 +280,8 @@ Result<void> apply_lever_arm(const ScoringRequest& request, ScoringInput& input)
   for (SourcedTrajectory& each : input.estimates) {
     LeverArm lever;
     if (fitted) {
-      const Trajectory valid = valid_part(each.trajectory);
+      const ValidPart part(each.trajectory);
+      const Trajectory& valid = part.poses();
       lever = fit_lever_arm(compared_pairs(valid, input.truth.trajectory, input.scoring), level);
       const Eigen::Vector3d& p = lever.p_body_point;
       input.notes.push_back(fmt::format(

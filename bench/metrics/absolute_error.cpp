@@ -13,24 +13,33 @@ Eigen::Vector3d error_of(const PosePair& pair) {
   return pair.estimate.translation - pair.truth.translation;
 }
 
+PosePair moved(const PosePair& pair, const std::optional<Alignment>& alignment) {
+  if (!alignment) return pair;
+  return {pair.stamp, aligned(pair.estimate, *alignment), pair.truth};
+}
+
 }  // namespace
 
-std::optional<double> ate_rmse(std::span<const PosePair> pairs) {
+std::optional<double> ate_rmse(std::span<const PosePair> pairs,
+                               const std::optional<Alignment>& alignment) {
   if (pairs.empty()) return std::nullopt;
   double sum = 0.0;
-  for (const PosePair& each : pairs) sum += error_of(each).squaredNorm();
+  for (const PosePair& each : pairs) sum += error_of(moved(each, alignment)).squaredNorm();
   return std::sqrt(sum / static_cast<double>(pairs.size()));
 }
 
-std::vector<double> position_errors(std::span<const PosePair> pairs) {
+std::vector<double> position_errors(std::span<const PosePair> pairs,
+                                    const std::optional<Alignment>& alignment) {
   std::vector<double> errors;
-  for (const PosePair& each : pairs) errors.push_back(error_of(each).norm());
+  errors.reserve(pairs.size());
+  for (const PosePair& each : pairs) errors.push_back(error_of(moved(each, alignment)).norm());
   return errors;
 }
 
-std::optional<AbsoluteErrorStatistics> absolute_error_statistics(std::span<const PosePair> pairs) {
+std::optional<AbsoluteErrorStatistics> absolute_error_statistics(
+    std::span<const PosePair> pairs, const std::optional<Alignment>& alignment) {
   if (pairs.empty()) return std::nullopt;
-  const std::vector<double> errors = position_errors(pairs);
+  const std::vector<double> errors = position_errors(pairs, alignment);
   AbsoluteErrorStatistics statistics;
   statistics.mean_m = *mean(errors);
   statistics.median_m = *median(errors);
@@ -43,10 +52,12 @@ std::optional<AbsoluteErrorStatistics> absolute_error_statistics(std::span<const
   return statistics;
 }
 
-std::optional<double> heading_rmse(std::span<const PosePair> pairs) {
+std::optional<double> heading_rmse(std::span<const PosePair> pairs,
+                                   const std::optional<Alignment>& alignment) {
   if (pairs.empty()) return std::nullopt;
   double sum = 0.0;
-  for (const PosePair& each : pairs) {
+  for (const PosePair& recorded : pairs) {
+    const PosePair each = moved(recorded, alignment);
     const double heading = yaw_of(each.estimate.rotation * each.truth.rotation.conjugate());
     sum += heading * heading;
   }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "bench/metrics/alignment.hpp"
 #include "bench/metrics/association.hpp"
 
 namespace aims {
@@ -25,18 +26,24 @@ struct AbsoluteErrorStatistics {
   double max_m = 0.0;
 };
 
+// Pairs are aligned, or are so by `alignment`, which spares a copy of them.
+
 /// None without pairs.
-std::optional<AbsoluteErrorStatistics> absolute_error_statistics(std::span<const PosePair> pairs);
+std::optional<AbsoluteErrorStatistics> absolute_error_statistics(
+    std::span<const PosePair> pairs, const std::optional<Alignment>& alignment = {});
 
 /// Position error of each of aligned pairs [m].
-std::vector<double> position_errors(std::span<const PosePair> pairs);
+std::vector<double> position_errors(std::span<const PosePair> pairs,
+                                    const std::optional<Alignment>& alignment = {});
 
 /// Root mean square of the heading errors [rad] of aligned pairs; the rotation error is taken in
 /// the frame of the truth, whose z is along gravity.
-std::optional<double> heading_rmse(std::span<const PosePair> pairs);
+std::optional<double> heading_rmse(std::span<const PosePair> pairs,
+                                   const std::optional<Alignment>& alignment = {});
 
 /// Root mean square of the position errors [m] of aligned pairs (evo: APE, translation part).
-std::optional<double> ate_rmse(std::span<const PosePair> pairs);
+std::optional<double> ate_rmse(std::span<const PosePair> pairs,
+                               const std::optional<Alignment>& alignment = {});
 
 /// Largest position error [m] of aligned pairs.
 std::optional<double> max_error(std::span<const PosePair> pairs);

@@ -156,13 +156,15 @@ Alignment align_yaw(std::span<const PosePair> pairs) {
   return alignment;
 }
 
-std::vector<PosePair> aligned(std::span<const PosePair> pairs, const Alignment& alignment) {
-  std::vector<PosePair> moved(pairs.begin(), pairs.end());
-  for (PosePair& each : moved) {
-    if (alignment.scale != 1.0) each.estimate.translation *= alignment.scale;
-    each.estimate = alignment.T_truth_estimate * each.estimate;
-  }
-  return moved;
+Pose aligned(const Pose& estimate, const Alignment& alignment) {
+  Pose scaled = estimate;
+  if (alignment.scale != 1.0) scaled.translation *= alignment.scale;
+  return alignment.T_truth_estimate * scaled;
+}
+
+std::vector<PosePair> aligned(std::vector<PosePair> pairs, const Alignment& alignment) {
+  for (PosePair& each : pairs) each.estimate = aligned(each.estimate, alignment);
+  return pairs;
 }
 
 }  // namespace aims

@@ -59,7 +59,10 @@ Alignment align_sim3(std::span<const PosePair> pairs);
 /// Least squares over heading and translation; heading zero when the positions do not spread.
 Alignment align_yaw(std::span<const PosePair> pairs);
 
+/// The pose of an estimate scaled and moved into the truth's frame.
+Pose aligned(const Pose& estimate, const Alignment& alignment);
+
 /// The pairs with their estimates scaled and moved into the truth's frame.
-std::vector<PosePair> aligned(std::span<const PosePair> pairs, const Alignment& alignment);
+std::vector<PosePair> aligned(std::vector<PosePair> pairs, const Alignment& alignment);
 
 }  // namespace aims

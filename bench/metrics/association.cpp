@@ -118,6 +118,17 @@ bool is_valid(const Pose& pose) {
          std::abs(pose.rotation.norm() - 1.0) < kNormTolerance;
 }
 
+ValidPart::ValidPart(const Trajectory& trajectory) {
+  std::optional<Time> last;
+  const bool all = std::ranges::all_of(trajectory, [&last](const StampedPose& each) {
+    const bool later = !last || each.stamp > *last;
+    last = each.stamp;
+    return later && is_valid(each.pose);
+  });
+  if (all) whole_ = &trajectory;
+  if (!all) part_ = valid_part(trajectory);
+}
+
 Trajectory valid_part(const Trajectory& trajectory) {
   Trajectory valid;
   valid.reserve(trajectory.size());

@@ -56,4 +56,15 @@ bool is_valid(const Pose& pose);
 /// The valid poses whose stamps increase; the others are left out.
 Trajectory valid_part(const Trajectory& trajectory);
 
+/// The same without a copy where all of them are; the trajectory must outlive it.
+class ValidPart {
+ public:
+  explicit ValidPart(const Trajectory& trajectory);
+  const Trajectory& poses() const { return whole_ != nullptr ? *whole_ : part_; }
+
+ private:
+  const Trajectory* whole_ = nullptr;
+  Trajectory part_;
+};
+
 }  // namespace aims

@@ -91,45 +91,46 @@ std::optional<EndError> end_error_if_reached(std::span<const PosePair> anchored,
 
 bool has_attitude(const ScoreConfig& config) { return config.truth != TruthContent::kPosition; }
 
-/// The pairs aligned by heading and translation. Frames that are not level are levelled at the
-/// start, as `anchored` is.
-std::vector<PosePair> headline_aligned(std::span<const PosePair> pairs,
-                                       std::span<const PosePair> anchored,
-                                       const ScoreConfig& config) {
-  const bool is_level = config.anchor == AlignmentKind::kStartHeading;
-  const std::span<const PosePair> level = is_level ? pairs : anchored;
-  return aligned(level, align_yaw(level));
+/// By heading and translation.
+void score_headline(Scores& scores, std::span<const PosePair> level, const ScoreConfig& config) {
+  if (level.size() < 2) return;
+  const Alignment yaw = align_yaw(level);
+  scores.ate_yaw_m = ate_rmse(level, yaw);
+  scores.ape_yaw = absolute_error_statistics(level, yaw);
+  if (has_attitude(config)) scores.heading_error_rad = heading_rmse(level, yaw);
 }
 
-void score_headline(Scores& scores, std::span<const PosePair> pairs,
-                    std::span<const PosePair> anchored, const ScoreConfig& config) {
-  const std::vector<PosePair> best = headline_aligned(pairs, anchored, config);
-  scores.ate_yaw_m = ate_rmse(best);
-  scores.ape_yaw = absolute_error_statistics(best);
-  if (!has_attitude(config)) return;
-  scores.heading_error_rad = heading_rmse(best);
-  scores.heading_offset_rad = yaw_of(align_yaw(anchored).T_truth_estimate.rotation);
-  scores.ate_m = ate_rmse(anchored);
-}
+/// Whether frames are level as they are; others are levelled at the start.
+bool is_level(const ScoreConfig& config) { return config.anchor == AlignmentKind::kStartHeading; }
 
-void score_pairs(Scores& scores, std::span<const PosePair> pairs,
-                 std::span<const PosePair> anchored, const ScoreConfig& config) {
-  // After alignment a single pose always equals its truth.
+/// What needs the pairs as they are. After alignment a single pose always equals its truth.
+void score_pairs(Scores& scores, std::span<const PosePair> pairs, const ScoreConfig& config) {
   if (pairs.size() < 2) return;
-  score_headline(scores, pairs, anchored, config);
-  scores.max_error_m = max_error(anchored);
-  scores.max_abs_z_error_m = max_abs_z_error(anchored);
+  if (is_level(config)) score_headline(scores, pairs, config);
   const Alignment se3 = align_se3(pairs);
-  const std::vector<PosePair> best = aligned(pairs, se3);
   scores.se3_spread = se3.spread;
-  scores.ate_se3_m = ate_rmse(best);
+  scores.ate_se3_m = ate_rmse(pairs, se3);
   if (scores.control_points) {
-    scores.control_points->score = control_point_score(best, scores.control_points->points);
+    ControlPointScore& points = *scores.control_points;
+    const std::vector<double> errors = position_errors(pairs, se3);
+    points.score = control_point_score(errors, points.points);
+    points.score_2023 = control_point_score_2023(errors, points.points);
   }
   if (!config.sim3) return;
   const Alignment sim3 = align_sim3(pairs);
-  scores.ate_sim3_m = ate_rmse(aligned(pairs, sim3));
+  scores.ate_sim3_m = ate_rmse(pairs, sim3);
   scores.sim3_scale = sim3.scale;
+}
+
+/// What needs them aligned at the start.
+void score_anchored(Scores& scores, std::span<const PosePair> anchored, const ScoreConfig& config) {
+  if (anchored.size() < 2) return;
+  if (!is_level(config)) score_headline(scores, anchored, config);
+  scores.max_error_m = max_error(anchored);
+  scores.max_abs_z_error_m = max_abs_z_error(anchored);
+  if (!has_attitude(config)) return;
+  scores.heading_offset_rad = yaw_of(align_yaw(anchored).T_truth_estimate.rotation);
+  scores.ate_m = ate_rmse(anchored);
 }
 
 SuccessLimits limits_of(const Trajectory& truth, const ScoreConfig& config) {
@@ -204,10 +205,14 @@ AlignmentKind start_alignment(const ScoreConfig& config) {
 
 std::vector<PosePair> headline_pairs(const Trajectory& estimate, const Trajectory& truth,
                                      const ScoreConfig& config) {
-  const std::vector<PosePair> pairs =
-      compared_pairs(valid_part(estimate), valid_part(truth), config);
-  return headline_aligned(pairs, aligned(pairs, align_start(pairs, start_alignment(config))),
-                          config);
+  const ValidPart valid(estimate), valid_truth(truth);
+  std::vector<PosePair> pairs = compared_pairs(valid.poses(), valid_truth.poses(), config);
+  if (!is_level(config)) {
+    const Alignment start = align_start(pairs, start_alignment(config));
+    pairs = aligned(std::move(pairs), start);
+  }
+  const Alignment yaw = align_yaw(pairs);
+  return aligned(std::move(pairs), yaw);
 }
 
 void withdraw_success(Scores& scores, FailureReason reason) {
@@ -224,16 +229,13 @@ void withdraw_success(Scores& scores, FailureReason reason) {
 
 Scores score_over(const Trajectory& estimate, const Trajectory& truth,
                   std::span<const Segment> segments, const ScoreConfig& config) {
-  const Trajectory valid = valid_part(estimate);
-  const Trajectory valid_truth = valid_part(truth);
-  const std::vector<PosePair> pairs = compared_pairs(valid, valid_truth, config);
-  const std::vector<PosePair> anchored =
-      aligned(pairs, align_start(pairs, start_alignment(config)));
+  const ValidPart valid_estimate(estimate), valid_true(truth);
+  const Trajectory &valid = valid_estimate.poses(), &valid_truth = valid_true.poses();
+  std::vector<PosePair> pairs = compared_pairs(valid, valid_truth, config);
   const Duration edge = from_seconds(config.edge_tolerance);
   const SuccessLimits limits = limits_of(valid_truth, config);
 
   Scores scores;
-  score_success(scores, estimate, valid_truth, anchored, limits);
   scores.poses = static_cast<int>(estimate.size());
   scores.poses_invalid = static_cast<int>(estimate.size() - valid.size());
   scores.poses_compared = static_cast<int>(pairs.size());
@@ -242,15 +244,20 @@ Scores score_over(const Trajectory& estimate, const Trajectory& truth,
   scores.segments =
       segment_distances(valid, valid_truth, segments, config.min_segment_length, edge);
   scores.m_list_percent = m_list_percent(scores.segments);
-  scores.m_end = end_error_if_reached(anchored, valid_truth, edge);
   if (valid.size() >= 2) {
     scores.start_to_end_m = (valid.back().pose.translation - valid.front().pose.translation).norm();
   }
   if (limits.at_points) {
     scores.control_points = {static_cast<int>(valid_truth.size()), static_cast<int>(pairs.size())};
   }
-  score_pairs(scores, pairs, anchored, config);
+  score_pairs(scores, pairs, config);
   score_relative(scores, pairs, config);
+
+  const Alignment start = align_start(pairs, start_alignment(config));
+  const std::vector<PosePair> anchored = aligned(std::move(pairs), start);  // one copy at a time
+  score_success(scores, estimate, valid_truth, anchored, limits);
+  scores.m_end = end_error_if_reached(anchored, valid_truth, edge);
+  score_anchored(scores, anchored, config);
   if (anchored.size() >= 2) scores.drift = drift_summary(anchored, valid_truth, segments);
   if (scores.drift) scores.drift->has_attitude = has_attitude(config);
   return scores;

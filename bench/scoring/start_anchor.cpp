@@ -7,7 +7,8 @@
 namespace aims {
 
 Pose start_anchor(const Trajectory& estimate, const Trajectory& truth, const ScoreConfig& scoring) {
-  const auto pairs = compared_pairs(valid_part(estimate), truth, scoring);
+  const ValidPart valid(estimate);
+  const auto pairs = compared_pairs(valid.poses(), truth, scoring);
   return align_start(pairs, start_alignment(scoring)).T_truth_estimate;
 }
 

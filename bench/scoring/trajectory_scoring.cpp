@@ -154,6 +154,15 @@ ScoredEstimate score_one(SourcedTrajectory estimate, const ScoringInput& input) 
   return scored;
 }
 
+/// What the reader of a trajectory noted of the poses that it left out.
+std::string dropped_from(const std::string& source, const std::vector<std::string>& notes) {
+  const auto of_source = [&](const std::string& note) {
+    return note.starts_with(source + ": ") && note.find(" dropped: ") != std::string::npos;
+  };
+  const auto found = std::ranges::find_if(notes, of_source);
+  return found == notes.end() ? "" : "; " + found->substr(source.size() + 2);
+}
+
 }  // namespace
 
 bool covers_too_little(const ScoredEstimate& estimate, const ScoreConfig& scoring) {
@@ -178,8 +187,9 @@ Result<TrajectoryScores> score_trajectories(ScoringInput input) {
   TrajectoryScores result;
   result.notes = std::move(input.notes);
   if (input.truth.trajectory.size() < 2) {
-    return failure(fmt::format("{}: expected at least two true poses, found {}", input.truth.source,
-                               input.truth.trajectory.size()));
+    return failure(fmt::format("{}: expected at least two true poses, found {}{}",
+                               input.truth.source, input.truth.trajectory.size(),
+                               dropped_from(input.truth.source, result.notes)));
   }
   move_near(input.truth, result.notes);
   note_truth(input, result.notes);

@@ -116,6 +116,15 @@ std::size_t header_begin(std::string_view text) {
   return 0;
 }
 
+/// A decimal comma in the cell from `from` on becomes a point, where commas separate no cells.
+void decimal_point(std::string& cells, std::size_t from) {
+  const std::size_t comma = cells.find(',', from);
+  const bool number = cells.find_first_not_of("+-0123456789,eE \t\r", from) == std::string::npos;
+  if (comma != std::string::npos && number && cells.find(',', comma + 1) == std::string::npos) {
+    cells[comma] = '.';
+  }
+}
+
 std::optional<double> number_of(std::string_view cell) {
   if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
   if (cell == "true") return 1.0;
@@ -134,7 +143,8 @@ Result<CsvColumns> CsvColumns::parse(std::string_view text, const std::string& n
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   const std::size_t begin = foreign ? header_begin(text) : 0;
   const std::string_view first_line = text.substr(begin, text.find('\n', begin) - begin);
-  RowReader reader(text, foreign ? separator_of(first_line) : ',');
+  const char separator = foreign ? separator_of(first_line) : ',';
+  RowReader reader(text, separator);
   reader.begin_at(begin);
   CsvColumns row;  // all cells of one
   if (!reader.take(row.cells_, row.ends_)) {
@@ -171,7 +181,9 @@ Result<CsvColumns> CsvColumns::parse(std::string_view text, const std::string& n
                                  line, columns, found, complete ? "" : ", truncated"));
     }
     for (const std::size_t i : kept) {
+      const std::size_t from = table.cells_.size();
       table.cells_ += row.cell(0, i);
+      if (separator != ',') decimal_point(table.cells_, from);
       table.ends_.push_back(table.cells_.size());
     }
     table.lines_.push_back(line);

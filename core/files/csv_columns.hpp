@@ -15,8 +15,8 @@ namespace aims {
 /// Whose table it is.
 enum class CsvOrigin {
   kOwn,      ///< written by CsvTable
-  kForeign,  ///< of any tool: blanks around cells, comments (#), blank lines, semicolons or tabs,
-             ///< no line end behind the last row
+  kForeign,  ///< of any tool: blanks around cells, comments (#), blank lines, semicolons or tabs
+             ///< (then also decimal commas), no line end behind the last row
   kDamaged,  ///< likewise, and its last row may be incomplete: it is left out
 };
 

@@ -59,14 +59,16 @@ Result<StampedPose> parse_line(std::string_view line, PoseRules rules) {
 }  // namespace
 
 std::string tum_text(std::span<const StampedPose> poses) {
-  fmt::memory_buffer out;
+  constexpr std::size_t kLine = 120;  // about
+  std::string out;
+  out.reserve(kLine * poses.size());
   for (const StampedPose& each : poses) {
     const Eigen::Vector3d& p = each.pose.translation;
     const Eigen::Quaterniond& q = each.pose.rotation;
     fmt::format_to(std::back_inserter(out), "{} {} {} {} {} {} {} {}\n", stamp_text(each.stamp),
                    p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
   }
-  return fmt::to_string(out);
+  return out;
 }
 
 Result<Trajectory> parse_tum(std::string_view text, const std::string& name, PoseRules rules) {

@@ -120,10 +120,12 @@ std::optional<double> CloudSurvey::median_first(std::size_t field) const {
   return upper_median(all);
 }
 
-/// Whether the field runs from 0 to 1 during a scan that does not last a second.
+/// Whether the field runs from 0 to 1, or from -1 to 0, during a scan that does not last a second.
 bool CloudSurvey::is_normalized(std::size_t field, double span, Duration about) const {
   const double first = median_first(field).value_or(0.0);
-  const bool unit_range = span > 0.8 && span < 1.0001 && first > -1e-6 && first + span < 1.0001;
+  const double last = first + span;
+  const bool after = first > -1e-6 && last<1.0001, before = first> - 1.0001 && last < 1e-6;
+  const bool unit_range = span > 0.8 && span < 1.0001 && (after || before);
   return unit_range && about < kLongestScan * 2 / 3;
 }
 
@@ -212,10 +214,10 @@ void CloudSurvey::decide_times(const RecordingConfig& config, CloudReading& read
   if (reading.normalized_times) {
     return notes.warn(
         "point times assumed to be fractions of the scan",
-        fmt::format(
-            "point field '{}' runs from 0 to 1 over scans of {:.4g} s: taken as fraction of "
-            "the scan (point_time_unit: s reads it as seconds)",
-            reading.time_field, to_seconds(reading.period)));
+        fmt::format("point field '{}' runs from {} over scans of {:.4g} s: taken as fraction of "
+                    "the scan (point_time_unit: s reads it as seconds)",
+                    reading.time_field, first_firing_ns(reading) < 0.0 ? "-1 to 0" : "0 to 1",
+                    to_seconds(reading.period)));
   }
   note_length(span, about, reading, notes);
   notes.push_back(fmt::format("point time: field '{}' in {}, {}", reading.time_field,

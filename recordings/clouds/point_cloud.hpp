@@ -28,7 +28,7 @@ struct CloudReading {
   PointClock clock = PointClock::kNone;
   std::string time_field;
   double time_unit = 1.0;                 ///< of that field [ns]
-  bool normalized_times = false;          ///< the unit is the scan: times run from 0 to 1
+  bool normalized_times = false;          ///< the unit is the scan: from 0 to 1 or -1 to 0
   CloudStamp stamp = CloudStamp::kStart;  ///< never kAuto
   bool counted_from_start = true;         ///< times begin with the scan, not at the stamp
   Duration period = 100 * kMillisecond;   ///< nominal, of one scan

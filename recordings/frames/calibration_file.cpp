@@ -10,6 +10,7 @@
 #include <numbers>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "core/files/atomic_file.hpp"
@@ -28,6 +29,9 @@ std::string lower(std::string_view text) {
   std::ranges::transform(out, out.begin(), [](unsigned char c) { return std::tolower(c); });
   return out;
 }
+
+/// Ending of keys whose seven numbers are a vector and a quaternion (Oxford Spires).
+constexpr std::string_view kVectorAndQuaternion = "_t_xyz_q_xyzw";
 
 bool is_index(std::string_view word) {
   return !word.empty() && word.size() <= 4 &&
@@ -99,8 +103,11 @@ std::optional<Named> frames_of(const std::string& place) {
   if (auto named = split_at(key, "_in_", true)) return named;
   if (auto named = split_at(key, "_T_", false)) return named;
   if (!key.starts_with("T_") && !key.starts_with("t_")) return std::nullopt;
+  if (key.ends_with(kVectorAndQuaternion)) key.resize(key.size() - kVectorAndQuaternion.size());
   auto named = split_at(key.substr(2), "_", false);
+  if (named && named->parent == "here") named->parent = group;  // MultiCal
   if (named && named->parent == "cam" && group.starts_with("cam")) named->parent = group;
+  if (named && named->parent == "cam" && is_index(group)) named->parent += group;  // of a list
   return named;
 }
 
@@ -130,6 +137,18 @@ Result<Pose> pose_in_group(const Lists& lists, const std::string& group, const s
     constexpr double kRad = std::numbers::pi / 180.0;
     rotation = rotation_of_rpy(kRad * a[0], kRad * a[1], kRad * a[2]);
   }
+  if (!rotation) return tl::unexpected(rotation.error());
+  return Pose{*rotation, *translation};
+}
+
+Result<Pose> pose_of_seven(const std::vector<double>& numbers, const std::string& place) {
+  if (numbers.size() != 7) {
+    return failure(
+        fmt::format("{}: expected 7 numbers: x y z qx qy qz qw, found {}", place, numbers.size()));
+  }
+  const auto translation = translation_of(std::span(numbers).first(3), place);
+  if (!translation) return tl::unexpected(translation.error());
+  const auto rotation = rotation_of_quaternion(std::span(numbers).subspan(3), place);
   if (!rotation) return tl::unexpected(rotation.error());
   return Pose{*rotation, *translation};
 }
@@ -168,8 +187,10 @@ Result<std::vector<FixedTransform>> parse_yaml(const std::string& text, const st
       continue;
     }
     const auto named = frames_of(place);
-    if (!named || list.size() < 12) continue;
-    const auto pose = pose_of_matrix(values(list), where, named->metres);
+    const bool seven = place.ends_with(kVectorAndQuaternion);
+    if (!named || (list.size() < 12 && !seven)) continue;
+    const auto pose = seven ? pose_of_seven(values(list), where)
+                            : pose_of_matrix(values(list), where, named->metres);
     if (!pose) return tl::unexpected(pose.error());
     transforms.push_back({named->parent, named->child, *pose});
   }

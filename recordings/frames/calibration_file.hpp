@@ -15,6 +15,8 @@ namespace aims {
 ///   T_cn_cnm1), A_to_B_transform (of A in B; Ouster's in mm) or A_in_B, as lists of 16 or 12
 ///   numbers, lists of rows, or OpenCV matrices; A_in_B also as a map of translation and
 ///   quaternion_xyzw, rotation_matrix or rotation_rpy_deg; FAST-LIO's extrinsic_T and extrinsic_R;
+///   MultiCal's T_here_B (pose of B in the sensor that the key stands below); T_A_B_t_xyz_q_xyzw as
+///   7 numbers (Oxford Spires);
 /// - a URDF file: its fixed joints;
 /// - a launch file or script: its static_transform_publishers.
 /// Errors name `name`, the line, and what was expected.

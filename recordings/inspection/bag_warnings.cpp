@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "recordings/source/recording_file.hpp"
 #include "recordings/topics/topic_choice.hpp"
@@ -14,6 +16,8 @@ namespace {
 
 constexpr double kMaxLoss = 0.01;              ///< [-]
 constexpr double kMaxGapPeriods = 10.0;        ///< in periods of the topic
+constexpr double kMinPause = 10.0;             ///< of all sensors [s]
+constexpr double kPauseTolerance = 2.0;        ///< between their gaps [s]
 constexpr double kMaxOffset = 0.5;             ///< between record time and stamp [s]
 constexpr double kMaxOffsetDifference = 0.15;  ///< [s]
 constexpr double kMaxClockOffset = 0.015;      ///< above what averaging over a sample causes [s]
@@ -33,6 +37,21 @@ bool is_sensor(const TopicInfo& topic) {
          topic.type == "nav_msgs/Odometry" || topic.type == "geometry_msgs/TwistStamped";
 }
 
+/// The longest time in which no sensor has a stamp; nothing for a single sensor, and where their
+/// longest gaps differ.
+std::optional<double> common_gap(const BagInfo& info) {
+  double shortest = std::numeric_limits<double>::max(), longest = 0.0;
+  int sensors = 0;
+  for (const TopicInfo& each : info.topics) {
+    if (!is_sensor(each) || !each.largest_gap_s) continue;
+    shortest = std::min(shortest, *each.largest_gap_s);
+    longest = std::max(longest, *each.largest_gap_s);
+    ++sensors;
+  }
+  const bool common = sensors > 1 && shortest > kMinPause && longest - shortest < kPauseTolerance;
+  return common ? std::optional(shortest) : std::nullopt;
+}
+
 void warn_of_recorder(const BagInfo& info, std::vector<std::string>& out) {
   if (info.summary.repeated_messages > 0) {
     out.push_back(fmt::format("{} messages stand in two of the files: they count once",
@@ -49,6 +68,12 @@ void warn_of_recorder(const BagInfo& info, std::vector<std::string>& out) {
         fmt::format("{} messages are recorded at time 0, before the recorder's clock was "
                     "set; they are taken at their stamps",
                     unset));
+  }
+  if (const auto gap = common_gap(info)) {
+    out.push_back(
+        fmt::format("no sensor has stamps for {:.1f} s: the recording was paused, or all clocks "
+                    "were set forward; what moved meanwhile is unknown to an estimate",
+                    *gap));
   }
   if (step > 0.0) {
     out.push_back(
@@ -95,13 +120,15 @@ void warn_of_times(const BagInfo& info, const TopicInfo& topic, std::vector<std:
                     "driver",
                     topic.topic));
   }
-  if (topic.loss.value_or(0.0) > kMaxLoss) {
+  const bool paused = common_gap(info).has_value();  // said once
+  if (!paused && topic.loss.value_or(0.0) > kMaxLoss) {
     out.push_back(
         fmt::format("{}: about {:.1f} % of the messages are missing: check the robot's network, "
                     "record to a faster disk or with a larger buffer (rosbag record -b 0)",
                     topic.topic, 100.0 * *topic.loss));
   }
-  if (topic.rate_hz && topic.largest_gap_s.value_or(0.0) * *topic.rate_hz > kMaxGapPeriods) {
+  if (!paused && topic.rate_hz &&
+      topic.largest_gap_s.value_or(0.0) * *topic.rate_hz > kMaxGapPeriods) {
     out.push_back(fmt::format("{}: a gap of {:.2f} s; estimators bridge it with the other sensors",
                               topic.topic, *topic.largest_gap_s));
   }

@@ -56,10 +56,11 @@ std::optional<int> leg_of_name(std::string_view name) {
   return (front ? 0 : 2) + (left ? 0 : 1);
 }
 
-std::optional<int> joint_of_name(std::string_view name) {
+std::optional<int> joint_of_name(std::string_view name, bool abad) {
   const std::string text = lower(name);
   if (holds_any(text, {"kfe", "calf", "knee", "kn", "shank", "lower"})) return 2;
   if (holds_any(text, {"hfe", "thigh", "hip_y", "hip_pitch", "hip_fe", "hy", "upper"})) return 1;
+  if (abad && holds_any(text, {"hip"}) && !holds_any(text, {"abad", "abd"})) return 1;
   if (holds_any(text, {"haa", "hip", "hx", "abd", "abad", "shoulder"})) return 0;
   return std::nullopt;
 }
@@ -68,6 +69,10 @@ std::optional<JointOrder> joint_order(std::span<const std::string_view> recorded
                                       std::span<const std::string> configured, std::size_t size) {
   JointOrder order;
   std::array<bool, kJointCount> found{};
+  // Where the abduction has its own name, the hip is the joint that pitches (MIT Cheetah).
+  const bool abad = std::ranges::any_of(recorded, [](std::string_view name) {
+    return holds_any(lower(name), {"abad", "abd"}) && !holds_any(lower(name), {"hip"});
+  });
   const std::size_t named = std::min(recorded.size(), size);
   for (std::size_t i = 0; i < named; ++i) {
     std::optional<std::size_t> joint;
@@ -76,7 +81,7 @@ std::optional<JointOrder> joint_order(std::span<const std::string_view> recorded
       if (at != configured.end()) joint = static_cast<std::size_t>(at - configured.begin());
     } else if (!is_foot(recorded[i])) {
       const auto leg = leg_of_name(recorded[i]);
-      const auto part = joint_of_name(recorded[i]);
+      const auto part = joint_of_name(recorded[i], abad);
       if (leg && part) joint = static_cast<std::size_t>(3 * *leg + *part);
     }
     if (!joint || *joint >= order.size() || found[*joint]) continue;

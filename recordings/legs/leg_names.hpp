@@ -17,7 +17,7 @@ namespace aims {
 std::optional<int> leg_of_name(std::string_view name);
 
 /// The joint within its leg: 0 abduction, 1 hip, 2 knee.
-std::optional<int> joint_of_name(std::string_view name);
+std::optional<int> joint_of_name(std::string_view name, bool abad = false);
 
 /// Index of each of the twelve joints in a message's arrays.
 using JointOrder = std::array<std::size_t, kJointCount>;

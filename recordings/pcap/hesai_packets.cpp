@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/files/byte_cursor.hpp"
+#include "recordings/pcap/packet_names.hpp"
 
 namespace aims {
 namespace {
@@ -78,9 +79,9 @@ Result<std::optional<LidarScan>> HesaiScans::add(std::span<const std::byte> pack
   if (packet[2] != kProtocol || (lasers != 32 && lasers != 16) || blocks != kBlocks ||
       packet.size() != size) {
     return failure(
-        fmt::format("expected packets of a Hesai XT32 or XT16 (protocol 6, 32 or 16 lasers in 8 "
-                    "blocks), found protocol {}, {} lasers, {} blocks and {} bytes",
-                    byte_at(packet, 2), lasers, blocks, packet.size()));
+        fmt::format("packets of {} with {} bytes; read are those of a Hesai XT32 or XT16 (protocol "
+                    "6, 32 or 16 lasers in 8 blocks)",
+                    hesai_of_packet(packet), packet.size()));
   }
   const auto tail = packet.last(kTail);
   const auto mode = std::to_integer<std::uint8_t>(tail[kModeInTail]);
@@ -99,7 +100,7 @@ Result<std::optional<LidarScan>> HesaiScans::add(std::span<const std::byte> pack
     if (auto scan = revolutions_.begin_block(azimuth, turn_)) ended = std::move(scan);
     const double before = (kBlocks - step - i) / step * kBlockTime;
     constexpr double kUnit = 2.0 * std::numbers::pi / kFullTurn;
-    if (revolutions_.is_whole()) {
+    if (revolutions_.is_wanted()) {
       add_block({block + kBlockHeader, lasers, 1e-3 * byte_at(packet, kUnitAt), azimuth * kUnit,
                  turn_ * kUnit / kBlockTime, *utc + static_cast<Duration>(kLastBlock - before)});
     }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recordings/pcap/packet_decoder.hpp"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "recordings/pcap/hesai_packets.hpp"
 #include "recordings/pcap/robosense_packets.hpp"
@@ -42,6 +44,9 @@ class ScanDecoder final : public PacketDecoder {
   explicit ScanDecoder(std::string frame) : frame_(std::move(frame)) {}
 
   Result<std::optional<PacketMessage>> add(const UdpPacket& packet) override {
+    // A capture of any interface has packets twice.
+    if (std::ranges::equal(packet.payload, last_)) return std::nullopt;
+    last_.assign(packet.payload.begin(), packet.payload.end());
     const auto scan = scan_of(scans_, packet);
     if (!scan) return tl::unexpected(scan.error());
     return cloud_of(*scan, frame_);
@@ -52,6 +57,7 @@ class ScanDecoder final : public PacketDecoder {
  private:
   std::string frame_;
   Scans scans_;
+  std::vector<std::byte> last_;  ///< packet
 };
 
 class OusterDecoder final : public PacketDecoder {

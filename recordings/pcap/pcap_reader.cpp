@@ -13,6 +13,7 @@
 #include "recordings/pcap/hesai_packets.hpp"
 #include "recordings/pcap/ouster_packets.hpp"
 #include "recordings/pcap/packet_decoder.hpp"
+#include "recordings/pcap/packet_names.hpp"
 #include "recordings/pcap/robosense_packets.hpp"
 #include "recordings/pcap/udp_packets.hpp"
 
@@ -31,7 +32,8 @@ struct PcapReader::Impl {
   std::unique_ptr<PacketDecoder> decoder = {};
   Time time = 0;  ///< of the last packet; those of a capture may be out of order
   PacketMessage message = {};
-  std::map<std::size_t, std::size_t> sizes = {};  ///< number of payloads by size [bytes]
+  std::map<std::size_t, std::size_t> sizes = {};   ///< number of payloads by size [bytes]
+  std::map<std::string, std::size_t> lidars = {};  ///< number of packets by who sends such
 
   void note_payload(std::span<const std::byte> payload);
   void recognize(std::span<const std::byte> payload);
@@ -46,6 +48,7 @@ struct PcapReader::Impl {
 
 void PcapReader::Impl::note_payload(std::span<const std::byte> payload) {
   if (sizes.size() < 100) ++sizes[payload.size()];
+  if (const std::string lidar = lidar_of_packet(payload); !lidar.empty()) ++lidars[lidar];
 }
 
 /// Changes to the decoder of the first packet that tells whose it is.
@@ -70,7 +73,11 @@ std::string PcapReader::Impl::found() const {
     if (count * 20 < packets_seen()) continue;
     text += fmt::format("{}{} datagrams of {} bytes", text.empty() ? "" : ", ", count, size);
   }
-  return text.empty() ? "no UDP datagrams" : text;
+  if (text.empty()) return "no UDP datagrams";
+  for (const auto& [lidar, count] : lidars) {
+    if (count * 20 >= packets_seen()) text += fmt::format("; packets of {}", lidar);
+  }
+  return text;
 }
 
 PcapReader::PcapReader(std::unique_ptr<Impl> impl)
@@ -106,11 +113,12 @@ Result<PcapReader> PcapReader::open(const fs::path& file, BagOpenOptions options
       0, ouster ? fmt::format("expected complete scans of an Ouster, as the metadata beside it "
                               "describe ({} bytes a packet), found none: {}",
                               OusterScans(*reader.impl_->ouster).lidar_packet_size(), found)
-                : fmt::format("expected complete scans of a Velodyne VLP-16 (1206 bytes a "
-                              "packet), a Hesai XT32 or XT16, or a RoboSense RS-LiDAR-16, found "
-                              "none: {}; for an Ouster its metadata is expected beside it, as "
-                              "NAME.json",
-                              found));
+                : fmt::format(
+                      "expected complete scans of a Velodyne VLP-16, Puck Hi-Res, "
+                      "HDL-32E or VLP-32C, a Hesai XT32 or XT16, or a RoboSense RS-LiDAR-16, found "
+                      "none: {}; for an Ouster its metadata is expected beside it, as "
+                      "NAME.json",
+                      found));
 }
 
 std::string PcapReader::name() const { return impl_->packets.file().path().string(); }

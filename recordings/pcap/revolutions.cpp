@@ -5,13 +5,24 @@
 #include <utility>
 
 namespace aims {
+namespace {
+
+constexpr int kRevolution = 36000;  ///< [0.01 deg]
+constexpr int kLate = 3000;         ///< a smaller step back is no new revolution [0.01 deg]
+constexpr std::size_t kMostEarly = 1'000'000;  ///< no sensor has as many returns in a turn
+
+}  // namespace
 
 std::optional<LidarScan> Revolutions::begin_block(int azimuth, int turn) {
   std::optional<LidarScan> ended;
-  if (azimuth_ && azimuth < *azimuth_) {
+  if (azimuth_ && azimuth < *azimuth_ - kLate) {
     if (whole_ && !scan_.points.empty()) ended = std::move(scan_);
     scan_ = LidarScan();
     whole_ = true;
+  }
+  if (ended) {
+    ended_ = true;
+    early_.clear();
   }
   // A recording that begins with a revolution has all of it.
   if (!azimuth_) whole_ = azimuth <= turn;
@@ -20,19 +31,41 @@ std::optional<LidarScan> Revolutions::begin_block(int azimuth, int turn) {
   return ended;
 }
 
-void Revolutions::add(LidarPoint point, Time time) {
-  if (scan_.points.empty()) scan_.stamp = time;
+void Revolutions::add_to(LidarScan& scan, LidarPoint point, Time time) {
+  if (scan.points.empty()) scan.stamp = time;
   point.time_offset_ns =
-      static_cast<std::int32_t>(std::clamp<Duration>(time - scan_.stamp, -kSecond, kSecond));
-  scan_.end = std::max(scan_.end, time);
-  scan_.points.push_back(point);
+      static_cast<std::int32_t>(std::clamp<Duration>(time - scan.stamp, -kSecond, kSecond));
+  scan.end = std::max(scan.end, time);
+  scan.points.push_back(point);
+}
+
+void Revolutions::add(LidarPoint point, Time time) {
+  if (whole_) return add_to(scan_, point, time);
+  if (!ended_ && early_.size() < kMostEarly) early_.push_back({*azimuth_, point, time});
+}
+
+/// The returns before the azimuth passed zero from where those behind it end.
+std::optional<LidarScan> Revolutions::all_around() {
+  if (ended_ || !whole_ || early_.empty() || !azimuth_) return std::nullopt;
+  const int end = *azimuth_ + turn_;
+  if (early_.front().azimuth > end) return std::nullopt;
+  LidarScan scan;
+  for (const Early& each : early_) {
+    if (each.azimuth >= end) add_to(scan, each.point, each.time);
+  }
+  for (const LidarPoint& each : scan_.points) {
+    add_to(scan, each, scan_.stamp + each.time_offset_ns);
+  }
+  return scan;
 }
 
 std::optional<LidarScan> Revolutions::finish() {
-  constexpr int kFullTurn = 36000;  // [0.01 deg]
-  const bool complete = whole_ && azimuth_ && *azimuth_ + 2 * turn_ >= kFullTurn;
+  const bool complete = whole_ && azimuth_ && *azimuth_ + 2 * turn_ >= kRevolution;
+  auto around = complete ? std::nullopt : all_around();
   LidarScan scan = std::exchange(scan_, {});
-  if (!complete || scan.points.empty()) return std::nullopt;
+  early_.clear();
+  if (!complete) return around;
+  if (scan.points.empty()) return std::nullopt;
   return scan;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "core/measurements.hpp"
 
@@ -9,15 +10,17 @@ namespace aims {
 
 /// Puts the scans of a spinning LiDAR together from its blocks of firings: a scan ends where the
 /// azimuth passes zero. The revolution that has begun before the first block is left out, unless
-/// that block begins one.
+/// that block begins one; where no other is complete, its end and the beginning of the next are one
+/// scan, if they go all around. A block that lies less than 30 degrees before the last one comes
+/// late, and ends no scan.
 class Revolutions {
  public:
   /// Begins the block at `azimuth`, over which the head turns by `turn` [0.01 deg]; returns the
   /// scan that it ends.
   std::optional<LidarScan> begin_block(int azimuth, int turn);
 
-  /// Whether the present revolution is there from its start: points of others are left out.
-  bool is_whole() const { return whole_; }
+  /// Whether points of the present revolution may be part of a scan.
+  bool is_wanted() const { return whole_ || !ended_; }
 
   /// Adds a return of the present revolution; its time offset is set from `time`.
   void add(LidarPoint point, Time time);
@@ -26,9 +29,21 @@ class Revolutions {
   std::optional<LidarScan> finish();
 
  private:
+  /// A return before the first revolution that is there from its start.
+  struct Early {
+    int azimuth = 0;  ///< of its block [0.01 deg]
+    LidarPoint point;
+    Time time = 0;
+  };
+
+  static void add_to(LidarScan& scan, LidarPoint point, Time time);
+  std::optional<LidarScan> all_around();
+
   LidarScan scan_;
+  std::vector<Early> early_;
   int turn_ = 0;                ///< of the head over the last block [0.01 deg]
   bool whole_ = false;          ///< the present revolution began at its start
+  bool ended_ = false;          ///< a scan was complete
   std::optional<int> azimuth_;  ///< of the last block [0.01 deg]
 };
 

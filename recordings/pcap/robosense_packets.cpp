@@ -8,10 +8,10 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
-#include <string_view>
 #include <utility>
 
 #include "core/files/byte_cursor.hpp"
+#include "recordings/pcap/packet_names.hpp"
 
 namespace aims {
 namespace {
@@ -37,20 +37,6 @@ int byte_at(std::span<const std::byte> bytes, std::size_t at) {
 
 std::uint16_t big(const std::byte* bytes) {
   return load_number<std::uint16_t>(bytes, std::endian::big);
-}
-
-/// Names of other models with packets of this size.
-std::string_view model_name(int model) {
-  constexpr std::array<std::string_view, 7> kNames = {"",
-                                                      "",
-                                                      " (an RS-LiDAR-32)",
-                                                      " (an RS-Bpearl)",
-                                                      " (an RS-Ruby)",
-                                                      " (an RS-Ruby Lite)",
-                                                      " (an RS-Helios)"};
-  return model >= 0 && model < static_cast<int>(kNames.size())
-             ? kNames[static_cast<std::size_t>(model)]
-             : "";
 }
 
 /// The date of a packet; nothing for none.
@@ -150,7 +136,7 @@ std::optional<LidarScan> RobosenseScans::decode(std::span<const std::byte> packe
     if (i + 1 < kBlocks) turn = (azimuth_of(block + kBlockSize) - azimuth + kFullTurn) % kFullTurn;
     if (turn > 0 && turn <= kBlindZone) turn_ = turn;
     if (auto scan = revolutions_.begin_block(azimuth, turn_)) ended = std::move(scan);
-    if (revolutions_.is_whole()) {
+    if (revolutions_.is_wanted()) {
       add_block({block + kBlockHeader, azimuth * kHundredth, turn_ * kHundredth,
                  stamp + static_cast<Duration>(passed)});
     }
@@ -164,10 +150,8 @@ std::optional<LidarScan> RobosenseScans::decode(std::span<const std::byte> packe
 Result<std::optional<LidarScan>> RobosenseScans::add(std::span<const std::byte> packet) {
   const int model = byte_at(packet, kModelAt);
   if (byte_at(packet, 3) != 0x0a || model != kRs16) {
-    return failure(
-        fmt::format("expected packets of an RS-LiDAR-16 (model 0x01), found model "
-                    "0x{:02x}{}; convert others by their driver",
-                    model, model_name(model)));
+    return failure(fmt::format("packets of {}; read are those of an RS-LiDAR-16 (0x01)",
+                               robosense_of_model(model)));
   }
   const auto stamp = date_of(packet);
   if (!stamp) return failure("expected a date in the packet of a RoboSense, found none");

@@ -22,6 +22,9 @@
 #include "recordings/rosbag2/rosbag2_metadata.hpp"
 #include "recordings/rosbag2/rosbag2_reader.hpp"
 #include "recordings/rosbag2/rosbag2_writer.hpp"
+#include "recordings/source/compressed_clouds.hpp"
+#include "recordings/source/split_imu.hpp"
+#include "recordings/source/stamped_source.hpp"
 
 namespace aims {
 namespace {
@@ -151,8 +154,14 @@ Result<std::unique_ptr<MessageSource>> open_sensor_recording(const fs::path& fil
                                                              bool without_lidar) {
   auto source = open_recording(file, std::move(options));
   if (!source) return source;
+  if (auto restored = restore_record_times(*source); !restored) {
+    return tl::unexpected(restored.error());
+  }
   const auto decoded = decode_packets(*source);
   if (!decoded && !without_lidar) return tl::unexpected(decoded.error());
+  const auto unpacked = unpack_clouds(*source);
+  if (!unpacked && !without_lidar) return tl::unexpected(unpacked.error());
+  join_split_imu(*source);
   return source;
 }
 

@@ -145,6 +145,9 @@ Result<RecordingPlan> plan_recording(MessageSource& bag, const RecordingConfig& 
   if (!plain) return tl::unexpected(plain.error());
   const RecordingConfig config =
       with_recorded_legs(*plain, bag, state_of_joints(channels, topics), notes);
+  if (bag.summary().recorded_at_stamps) {
+    notes.push_back("record times are all the same: messages arrive in the order of the file");
+  }
   RecordingSurvey survey(config, topics);
   if (auto ok = survey_transforms(bag, "/tf_static", true, survey); !ok) {
     return tl::unexpected(ok.error());

@@ -29,6 +29,8 @@ struct RecordingPlan {
   Duration arrival_shift = 0;                               ///< added to record times
   Time start = 0;                                           ///< earliest record time that was set
   std::array<std::optional<Duration>, kRoleCount> latency;  ///< record time minus stamp, typically
+  /// A message that is recorded earlier than its stamp and latency by more has a wrong record time.
+  Duration max_early = kSecond / 2;
   std::array<Duration, kRoleCount> wait{};  ///< of messages, for those whose stamps move back more
   std::map<std::string, Duration> repeat_period;     ///< of topics that send each sample repeatedly
   std::array<bool, kRoleCount> stamped_by_record{};  ///< without stamps: record times are used

@@ -9,6 +9,7 @@
 
 #include "recordings/legs/leg_stream.hpp"
 #include "recordings/source/recording_file.hpp"
+#include "recordings/stream/record_clock.hpp"
 #include "recordings/stream/recording_plan.hpp"
 #include "recordings/stream/repeated_samples.hpp"
 #include "recordings/topics/recording_channels.hpp"
@@ -22,7 +23,6 @@ constexpr std::size_t kMaxDeliveries = 100'000;
 constexpr std::size_t kMaxBytes = std::size_t{256} << 20;
 /// A message that is recorded so much earlier than usual after its stamp is recorded by a wrong
 /// clock.
-constexpr Duration kMaxEarly = kSecond / 2;
 constexpr Duration kMaxHold = 60 * kSecond;  ///< of a message with a record time
 constexpr std::size_t kMaxHeldBytes = std::size_t{256} << 20;
 
@@ -50,6 +50,7 @@ struct RecordingReader::Impl {
 
   Result<void> fetch();
   bool hold(const BagMessage& message, const Channel& channel, const MessageView& view);
+  bool is_unset(const Channel& channel, const MessageView& view) const;
   Time due(const BagMessage& message, const Channel& channel, const MessageView& view);
   void release(Time due, std::vector<Delivery>& out);
   void receive(const BagMessage& message, std::vector<Delivery>& out);
@@ -217,6 +218,15 @@ void RecordingReader::Impl::take(const Channel& channel, const MessageView& view
   if (channel.is(Role::kLegs)) take_legs(channel, view, out);
 }
 
+/// Whether the message has no stamp though others of its topic have: before a clock was set.
+bool RecordingReader::Impl::is_unset(const Channel& channel, const MessageView& view) const {
+  if (plan.start < kSetRecordTime || view.time("header.stamp").value_or(1) != 0) return false;
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    if (channel.serves[i] && !plan.stamped_by_record[i] && plan.latency[i]) return true;
+  }
+  return false;
+}
+
 /// When a message arrives. One that is recorded before its stamp, as after the recorder's clock was
 /// set back or before it was set, is due at its stamp and the usual latency.
 Time RecordingReader::Impl::due(const BagMessage& message, const Channel& channel,
@@ -229,7 +239,7 @@ Time RecordingReader::Impl::due(const BagMessage& message, const Channel& channe
   if (!stamp || !plan.latency[role]) return recorded + plan.wait[role];
   const Duration early = *stamp + *plan.latency[role] - recorded;
   const bool unset = recorded < kSecond;
-  if (early < kMaxEarly || (early > kMaxHold && !unset)) return recorded + plan.wait[role];
+  if (early < plan.max_early || (early > kMaxHold && !unset)) return recorded + plan.wait[role];
   ++counts["recorded_before_their_stamp"];
   return recorded + early + plan.wait[role];
 }
@@ -268,6 +278,10 @@ void RecordingReader::Impl::receive(const BagMessage& message, std::vector<Deliv
     for (std::size_t i = 0; i < kRoleCount; ++i) {
       if (channel->serves[i]) malformed(static_cast<Role>(i));
     }
+    return;
+  }
+  if (is_unset(*channel, *view)) {
+    ++counts["stamp_not_set"];
     return;
   }
   if (!hold(message, *channel, *view)) take(*channel, *view, out);

@@ -68,7 +68,13 @@ class RecordingSurvey {
   void add_cloud(const MessageView& view, Time record_time);
   void add_imu(const MessageView& view);
 
-  static Duration latency_of(const Seen& each);
+  /// A step of the recorder's clock.
+  struct ClockStep {
+    Time stamp = 0;     ///< of the sensors, at which it was set back
+    Duration back = 0;  ///< by so much
+  };
+  static std::optional<ClockStep> clock_step_of(const Seen& each);
+  static Duration latency_of(const Seen& each, const std::optional<ClockStep>& step);
   static void keep_new(Seen& each);
   void decide_repeats(RecordingPlan& plan);
   void decide_stamps(RecordingPlan& plan);

@@ -16,6 +16,7 @@ constexpr Duration kMaxClockDifference = 5 * kSecond;
 constexpr Duration kMaxLatencyDifference = kSecond / 4;
 /// A step back of stamps that is no exchange of neighbours.
 constexpr Duration kMaxDisorder = kSecond / 5;
+constexpr std::size_t kFirst = 20;  ///< messages whose latency is that before a step
 
 bool all_zero(const std::vector<Time>& stamps) {
   return stamps.size() >= 3 &&
@@ -64,22 +65,41 @@ void RecordingSurvey::decide_waits(RecordingPlan& plan) const {
   plan.arrival_shift -= from_seconds(largest);
 }
 
-/// Record time minus stamp of messages without delay. Where stamps go backwards in the order of the
-/// recording, that of the earliest stamps: the recorder's clock was set back later.
-Duration RecordingSurvey::latency_of(const Seen& each) {
+/// Where the recorder's clock was set back: stamps go backwards in the order of the recording, and
+/// from some stamp on latencies are shorter than those of the earliest stamps.
+std::optional<RecordingSurvey::ClockStep> RecordingSurvey::clock_step_of(const Seen& each) {
   std::vector<std::pair<Time, Duration>> by_stamp;
   int backwards = 0;
   for (std::size_t i = 0; i < each.stamps.size(); ++i) {
     by_stamp.emplace_back(each.stamps[i], each.latencies[i]);
     if (i > 0 && each.stamps[i] < each.stamps[i - 1] - kMaxDisorder) ++backwards;
   }
-  if (backwards < 2) return early_latency(each.latencies);
+  if (backwards < 2) return std::nullopt;
   std::ranges::stable_sort(by_stamp, {}, &std::pair<Time, Duration>::first);
-  std::vector<Duration> first;
-  for (std::size_t i = 0; i < std::min<std::size_t>(by_stamp.size(), 20); ++i) {
-    first.push_back(by_stamp[i].second);
+  std::vector<Duration> before, after;
+  for (std::size_t i = 0; i < std::min(by_stamp.size(), kFirst); ++i) {
+    before.push_back(by_stamp[i].second);
   }
-  return early_latency(std::move(first));
+  const Duration usual = early_latency(before);
+  std::optional<Time> stamp;
+  for (const auto& [at, latency] : by_stamp) {
+    if (latency >= usual - kMaxDisorder / 2) continue;
+    if (!stamp) stamp = at;
+    after.push_back(latency);
+  }
+  if (!stamp) return std::nullopt;
+  return ClockStep{*stamp, usual - early_latency(std::move(after))};
+}
+
+/// Record time minus stamp of messages without delay, before the recorder's clock was set back.
+Duration RecordingSurvey::latency_of(const Seen& each, const std::optional<ClockStep>& step) {
+  if (!step) return early_latency(each.latencies);
+  std::vector<Duration> before;
+  for (std::size_t i = 0; i < each.stamps.size(); ++i) {
+    if (each.stamps[i] < step->stamp) before.push_back(each.latencies[i]);
+  }
+  return before.empty() ? early_latency(each.latencies) + step->back
+                        : early_latency(std::move(before));
 }
 
 /// Samples that are sent again under new stamps count once.
@@ -113,6 +133,11 @@ void RecordingSurvey::keep_new(Seen& each) {
 
 /// Clocks: stamps that were never set, and sensors with different clocks.
 void RecordingSurvey::decide_stamps(RecordingPlan& plan) {
+  // Of the topic with the most messages, whose stamps tell the step best.
+  const auto densest =
+      std::ranges::max_element(seen_, {}, [](const Seen& each) { return each.stamps.size(); });
+  const auto step = clock_step_of(*densest);
+  if (step) plan.max_early = std::min(plan.max_early, step->back / 2);
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     const Role role = static_cast<Role>(i);
     const std::string& topic = topic_of(topics_, role);
@@ -123,7 +148,7 @@ void RecordingSurvey::decide_stamps(RecordingPlan& plan) {
       plan.stamped_by_record[i] = true;
       notes_.push_back(fmt::format("{}: stamps are all zero, record times are used", topic));
     } else {
-      plan.latency[i] = latency_of(seen_[i]);
+      plan.latency[i] = latency_of(seen_[i], step);
     }
   }
   const auto& imu = plan.latency[static_cast<std::size_t>(Role::kImu)];

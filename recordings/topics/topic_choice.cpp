@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "recordings/messages/inertial_topics.hpp"
 #include "recordings/messages/robot_states.hpp"
 #include "recordings/topics/recording_topics.hpp"
 
@@ -26,6 +27,9 @@ bool holds(std::string_view text, std::string_view part) {
 
 bool is_cloud(const BagConnection& c) { return is_cloud_type(c.type); }
 bool is_imu(const BagConnection& c) { return c.type == "sensor_msgs/Imu"; }
+bool is_whole_imu(const BagConnection& c) {
+  return is_imu(c) && (!inertial_half(c.topic) || c.topic.ends_with("/imu"));
+}
 const StateLayout* state_of(const BagConnection& c) { return robot_state_of(c.type, c.definition); }
 bool has_imu(const StateLayout& state) { return !state.imu.empty(); }
 bool has_joints(const StateLayout& state) { return state.has_joints(); }
@@ -162,6 +166,11 @@ Result<std::string> imu_topic(const Chooser& chooser, const std::string& configu
   if (configured == kNone) return std::string();
   if (!configured.empty()) return chooser.requested(request, configured);
   auto topic = chooser.found({"imu", "sensor_msgs/Imu", is_imu}, kImuTopic);
+  // Gyro and accelerometer on a topic each are no IMU where both are joined.
+  if (!topic) {
+    const auto whole = chooser.found({"imu", "sensor_msgs/Imu", is_whole_imu}, kImuTopic);
+    if (whole && !whole->empty()) topic = whole;
+  }
   if (topic && topic->empty()) topic = state_topic(chooser, "imu", has_imu);
   if (topic && topic->empty()) return chooser.missing({"imu", "sensor_msgs/Imu", is_imu});
   return topic;

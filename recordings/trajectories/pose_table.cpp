@@ -6,26 +6,53 @@
 #include <algorithm>
 #include <cctype>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/files/number_lines.hpp"
+#include "recordings/trajectories/pose_columns.hpp"
 
 namespace aims {
 namespace {
 
 constexpr std::size_t kColumns = 8;
 constexpr std::size_t kPositionColumns = 4;
-constexpr std::size_t kNanosecondDigits = 16;  ///< of a stamp, at least
 
 std::string_view trimmed(std::string_view cell) {
-  const std::size_t first = cell.find_first_not_of(" \t\r\"#");
+  const std::size_t first = cell.find_first_not_of(" \t\r\"#%");
   if (first == std::string_view::npos) return {};
   return cell.substr(first, cell.find_last_not_of(" \t\r\"") - first + 1);
 }
 
-std::vector<std::string_view> cells_of(std::string_view line) {
-  const char separator = line.find(',') != std::string_view::npos ? ',' : ';';
+/// A number whose decimals may follow a comma.
+bool is_number_with_comma(std::string_view word) {
+  std::string text(word);
+  if (const std::size_t comma = text.find(','); comma != std::string::npos) text[comma] = '.';
+  return parse_number(text, false).has_value();
+}
+
+/// The sign between the cells of a line; a blank for any number of blanks and tabs.
+char separator_of(std::string_view line) {
+  if (line.find(';') != std::string_view::npos) return ';';
+  const bool commas = line.find(',') != std::string_view::npos;
+  if (std::ranges::count(line, '\t') >= 3 && line.find(",\t") == std::string_view::npos)
+    return '\t';
+  if (!commas) return ' ';
+  const auto words = words_of(line);
+  const bool decimal = words.size() >= kPositionColumns &&
+                       std::ranges::all_of(words, is_number_with_comma) &&
+                       std::ranges::none_of(words, [](auto word) { return word.ends_with(','); });
+  return decimal ? ' ' : ',';
+}
+
+std::vector<std::string_view> cells_of(std::string_view line, char separator) {
   std::vector<std::string_view> cells;
+  if (separator == ' ') {
+    for (const std::string_view word : words_of(line)) {
+      if (const auto cell = trimmed(word); !cell.empty()) cells.push_back(cell);
+    }
+    return cells;
+  }
   while (true) {
     const std::size_t end = std::min(line.find(separator), line.size());
     cells.push_back(trimmed(line.substr(0, end)));
@@ -34,89 +61,190 @@ std::vector<std::string_view> cells_of(std::string_view line) {
   }
 }
 
-/// Where the header names the w of the quaternion, if it does.
-std::optional<std::size_t> column_of_w(const std::vector<std::string_view>& header) {
-  for (std::size_t i = 4; i < std::min(header.size(), kColumns); ++i) {
-    std::string name(header[i].substr(0, header[i].find_first_of(" [(")));
-    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
-    if (name.ends_with('w')) return i;
+bool is_digits(std::string_view word) {
+  return !word.empty() &&
+         std::ranges::all_of(word, [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+StampUnit unit_by_digits(std::string_view stamp) {
+  if (!is_digits(stamp)) return StampUnit::kSeconds;
+  if (stamp.size() >= 17) return StampUnit::kNanoseconds;
+  if (stamp.size() == 16) return StampUnit::kMicroseconds;
+  return stamp.size() == 13 ? StampUnit::kMilliseconds : StampUnit::kSeconds;
+}
+
+int decimals_of(StampUnit unit) {
+  switch (unit) {
+    case StampUnit::kNanoseconds:
+      return 9;
+    case StampUnit::kMicroseconds:
+      return 6;
+    case StampUnit::kMilliseconds:
+      return 3;
+    default:
+      return 0;
   }
-  return std::nullopt;
 }
 
-bool is_nanoseconds(std::string_view stamp) {
-  return stamp.size() >= kNanosecondDigits &&
-         std::ranges::all_of(stamp, [](unsigned char c) { return std::isdigit(c) != 0; });
-}
-
-std::string seconds_of(std::string_view stamp) {
-  if (!is_nanoseconds(stamp)) return std::string(stamp);
-  return fmt::format("{}.{}", stamp.substr(0, stamp.size() - 9), stamp.substr(stamp.size() - 9));
+/// The stamp in seconds, its digits moved rather than divided.
+std::string seconds_of(std::string_view stamp, StampUnit unit) {
+  const auto decimals = static_cast<std::size_t>(decimals_of(unit));
+  const std::string_view whole = stamp.substr(0, stamp.find('.'));
+  if (decimals == 0 || !is_digits(whole)) return std::string(stamp);
+  const std::string part =
+      whole.size() == stamp.size() ? std::string() : std::string(stamp.substr(whole.size() + 1));
+  const std::string digits = std::string(decimals, '0') + std::string(whole);
+  const std::size_t point = digits.size() - decimals;
+  return fmt::format("{}.{}{}", digits.substr(0, point), digits.substr(point), part);
 }
 
 /// How the rows of a table are read.
 struct RowLayout {
-  bool positions = false;  ///< stamp and position alone
-  bool w_first = false;
+  char separator = ',';
+  PoseColumns columns;
 
-  std::size_t columns() const { return positions ? kPositionColumns : kColumns; }
+  /// A number as the TUM format has it: decimal commas become points, an empty cell NaN.
+  std::string number(std::string_view cell) const {
+    if (cell.empty()) return "nan";
+    std::string text(cell);
+    if (separator != ',' && std::ranges::count(text, ',') == 1) {
+      text[text.find(',')] = '.';
+    }
+    return text;
+  }
 
   std::string row(const std::vector<std::string_view>& cells) const {
-    std::string text =
-        fmt::format("{} {} {} {}", seconds_of(cells[0]), cells[1], cells[2], cells[3]);
-    const std::size_t x = w_first ? 5 : 4;
-    if (!positions) {
-      text +=
-          fmt::format(" {} {} {} {}", cells[x], cells[x + 1], cells[x + 2], cells[w_first ? 4 : 7]);
+    std::string stamp = number(cells[columns.stamp]);
+    if (columns.nanoseconds) {
+      const std::string_view part = cells[*columns.nanoseconds];
+      if (is_digits(part) && part.size() <= 9) stamp += fmt::format(".{:0>9}", part);
+    } else {
+      stamp = seconds_of(stamp, columns.unit);
+    }
+    std::string text = std::move(stamp);
+    for (const std::size_t each : columns.position) text += ' ' + number(cells[each]);
+    if (columns.quaternion_xyzw) {
+      for (const std::size_t each : *columns.quaternion_xyzw) text += ' ' + number(cells[each]);
     }
     return text + '\n';
   }
 };
 
+/// Takes the lines of a table, which may end in a carriage return alone.
+std::string_view take_line(std::string_view& text) {
+  const std::size_t feed = std::min(text.find('\n'), text.size());
+  std::size_t end = std::min(text.find('\r'), feed);
+  if (end + 1 == feed) end = feed;
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return line;
+}
+
+/// Without a comment behind the row.
+std::string_view without_comment(std::string_view line) {
+  const std::size_t first = std::min(line.find_first_not_of(" \t"), line.size());
+  return line.substr(0, line.find('#', std::min(first + 1, line.size())));
+}
+
+bool is_comment(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return true;
+  return line[first] == '#' || line[first] == '%' || line.substr(first).starts_with("//");
+}
+
+/// Reads a table line by line.
+class TableReader {
+ public:
+  TableReader(const std::string& name, std::vector<std::string>& notes)
+      : name_(name), notes_(notes) {}
+
+  /// The row of a line, a line end where it has none.
+  Result<std::string> read(std::string_view line) {
+    ++number_;
+    line = without_comment(line);
+    const char separator = layout_ ? layout_->separator : separator_of(line);
+    const auto cells = cells_of(line, separator);
+    const bool names = cells.size() >= kPositionColumns && !parse_number(cells[0], false);
+    if (is_comment(line) || (!layout_ && names)) {
+      if (!named_ && cells.size() >= kPositionColumns) named_ = named_columns(cells);
+      return std::string("\n");
+    }
+    if (!layout_) begin(cells, separator);
+    // Blanks separate as many numbers as TUM or positions have, or columns that are named.
+    const bool odd =
+        separator == ' ' && !named_ && cells.size() != kPositionColumns && cells.size() != kColumns;
+    if (odd || cells.size() < layout_->columns.least()) return wrong_number(cells.size());
+    return layout_->row(cells);
+  }
+
+ private:
+  void begin(const std::vector<std::string_view>& cells, char separator) {
+    layout_ = RowLayout{separator, {}};
+    const auto unit = unit_by_digits(cells[0]);
+    layout_->columns =
+        named_ ? *named_ : ordered_columns(cells.size(), unit == StampUnit::kNanoseconds);
+    PoseColumns& columns = layout_->columns;
+    if (columns.unit == StampUnit::kByDigits && columns.stamp < cells.size()) {
+      columns.unit = unit_by_digits(cells[columns.stamp]);
+      if (columns.unit == StampUnit::kMicroseconds || columns.unit == StampUnit::kMilliseconds) {
+        notes_.push_back(fmt::format("{}: stamps of {} digits: taken as {}", name_,
+                                     cells[columns.stamp].size(),
+                                     columns.unit == StampUnit::kMicroseconds ? "µs" : "ms"));
+      }
+    }
+    const std::size_t read = kPositionColumns + (columns.nanoseconds ? 1 : 0);
+    if (!columns.quaternion_xyzw && cells.size() > read) {
+      notes_.push_back(fmt::format("{}: {} {} of {} columns are read: stamp and position", name_,
+                                   named_ ? "by their names" : "the first", read, cells.size()));
+    }
+  }
+
+  tl::unexpected<Error> wrong_number(std::size_t found) const {
+    const bool positions = !layout_->columns.quaternion_xyzw;
+    if (layout_->separator == ' ' && !named_) {
+      return failure(fmt::format(
+          "{}:{}: expected 8 columns (TUM: stamp x y z qx qy qz qw), 12 (KITTI poses) or 4 "
+          "(positions: stamp x y z), found {}",
+          name_, number_, found));
+    }
+    return failure(fmt::format("{}:{}: expected at least {} columns: stamp, position{}, found {}",
+                               name_, number_, layout_->columns.least(),
+                               positions ? "" : ", quaternion", found));
+  }
+
+  const std::string& name_;
+  std::vector<std::string>& notes_;
+  std::optional<PoseColumns> named_;
+  std::optional<RowLayout> layout_;
+  int number_ = 0;
+};
+
 }  // namespace
 
 bool is_pose_table(std::string_view text) {
+  const std::size_t feed = std::min(text.find('\n'), text.size());
+  const std::size_t carriage = text.find('\r');
+  if (carriage < feed && carriage + 1 != feed) return true;
   LineReader lines(text, "");
   const auto line = lines.next();
-  return line && line->find_first_of(",;") != std::string_view::npos;
+  if (!line) return false;
+  const auto words = words_of(*line);
+  const std::size_t count = words.size();
+  if (count != kPositionColumns && count != kColumns && count != 12) return true;
+  if (!std::ranges::all_of(words, [](auto word) { return parse_number(word, false).has_value(); }))
+    return true;
+  return count != 12 && unit_by_digits(words[0]) != StampUnit::kSeconds;
 }
 
 Result<std::string> tum_of_pose_table(std::string_view text, const std::string& name,
                                       std::vector<std::string>& notes) {
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   std::string out;
-  std::optional<std::size_t> w;
-  std::optional<RowLayout> layout;
-  int number = 0;
+  TableReader reader(name, notes);
   while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    ++number;
-    const auto cells = cells_of(line);
-    const bool comment = line.find_first_not_of(" \t\r") == std::string_view::npos ||
-                         line[line.find_first_not_of(" \t\r")] == '#';
-    const bool header =
-        !layout && cells.size() >= kPositionColumns && !parse_number(cells[0], false);
-    if (comment || header) {
-      if (!w && cells.size() >= kColumns) w = column_of_w(cells);
-      out += '\n';
-      continue;
-    }
-    if (!layout) {
-      layout = RowLayout{cells.size() < kColumns, w ? *w == 4 : is_nanoseconds(cells[0])};
-      if (layout->positions && cells.size() > kPositionColumns) {
-        notes.push_back(fmt::format("{}: the first 4 of {} columns are read: stamp and position",
-                                    name, cells.size()));
-      }
-    }
-    if (cells.size() < layout->columns()) {
-      return failure(fmt::format("{}:{}: expected at least {}, found {}", name, number,
-                                 layout->positions ? "4 columns: stamp and position"
-                                                   : "8 columns: stamp, position, quaternion",
-                                 cells.size()));
-    }
-    out += layout->row(cells);
+    auto row = reader.read(take_line(text));
+    if (!row) return row;
+    out += *row;
   }
   return out;
 }

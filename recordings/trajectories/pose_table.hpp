@@ -9,14 +9,18 @@
 
 namespace aims {
 
-/// Whether the first line with numbers or a header has cells that commas or semicolons separate.
+/// Whether the text is anything but lines of 4, 8 or 12 numbers with blanks or tabs between them
+/// and stamps in seconds: a table with a header or other separators, stamps as integers of ms, µs
+/// or ns, comments of '%' or '//', or behind a row, or lines that end in a carriage return alone.
 bool is_pose_table(std::string_view text);
 
-/// The lines of such a table as those of the TUM format, line by line: the stamp in nanoseconds or
-/// seconds, the position, and the quaternion with w first (EuRoC) or last, by the header or,
-/// without one, first where stamps are in nanoseconds. Further columns are left out. A table of
-/// fewer than eight columns has positions alone: lines "stamp x y z", with a note where it has more
-/// columns than these. Errors: "name:line: ...".
+/// The lines of such a table as those of the TUM format, line by line. Cells are separated by
+/// semicolons, commas, tabs or blanks, with decimal commas where these do not separate. Columns are
+/// those that the header names; without names stamp, position and quaternion, of which w comes
+/// first where stamps are integers of ns (EuRoC). Stamps are in the unit of the header, else by
+/// their digits: of 17 and more ns, of 16 µs, of 13 ms, which is noted. Empty cells are NaN.
+/// Without a quaternion: lines "stamp x y z", with a note where there are further columns. Errors:
+/// "name:line: ...".
 Result<std::string> tum_of_pose_table(std::string_view text, const std::string& name,
                                       std::vector<std::string>& notes);
 

@@ -144,11 +144,11 @@ class Captures(ProgramTest):
     def test_what_is_no_such_capture_is_named(self):
         packets = vlp16_packets(START, 3)
         whole = capture(packets)
-        self.refuse_capture("expected complete scans of a Velodyne VLP-16 (1206 bytes a packet), a Hesai "
-                    "XT32 or XT16, or a RoboSense RS-LiDAR-16, found none: ",
+        self.refuse_capture("expected complete scans of a Velodyne VLP-16, Puck Hi-Res, HDL-32E or "
+                    "VLP-32C, a Hesai XT32 or XT16, or a RoboSense RS-LiDAR-16, found none: ",
                     self.put("none.pcap", capture([(START, b"hello")])))
-        self.refuse_capture("expected packets of a VLP-16 (0x22), found model 0x28",
-                    self.put("vlp32.pcap", capture(vlp16_packets(START, 1, model=0x28))))
+        self.refuse_capture("packets of a VLS-128 (0xa1); read are",
+                    self.put("vls128.pcap", capture(vlp16_packets(START, 1, model=0xa1))))
         self.refuse_capture("expected 1248 bytes, but the file ends",
                     self.put("cut.pcap", whole[:-700]))
         self.refuse_capture("--recover reads the part before", self.path("cut.pcap"))

@@ -5,6 +5,7 @@
 
 #include "core/files/csv.hpp"
 #include "core/files/csv_columns.hpp"
+#include "core/files/inflate.hpp"
 #include "core/files/kitti.hpp"
 #include "core/files/number_lines.hpp"
 #include "core/files/ply.hpp"
@@ -64,6 +65,9 @@ void refuse_readably(const Result<Value>& read) {
 }  // namespace
 
 void fuzz_tables(std::span<const std::uint8_t> input) {
+  constexpr std::size_t kMost = std::size_t{1} << 20;
+  const auto unpacked = inflate(std::as_bytes(input), kMost);
+  demand(!unpacked || unpacked->size() <= kMost);
   const std::string_view text = text_of(input);
   for (const PoseRules rules : {PoseRules::kAsGiven, PoseRules::kStrict}) {
     refuse_readably(parse_tum(text, kName, rules));

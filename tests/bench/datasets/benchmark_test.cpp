@@ -8,6 +8,7 @@
 
 #include "bench/estimate/dataset_profile.hpp"
 #include "core/files/tum.hpp"
+#include "core/text.hpp"
 #include "tests/bench/datasets/data_sets.hpp"
 #include "tests/cli/command_line.hpp"
 
@@ -46,6 +47,13 @@ class Benchmark : public testing::CommandLine {
       if (!attitude) each.pose.rotation.setIdentity();
       moved.push_back(each);
     }
+    return moved;
+  }
+
+  /// The same of a body in the IMU frame.
+  Trajectory truth_of(const Pose& T_imu_body) const {
+    Trajectory moved = truth({0, 0, 0}, true);
+    for (StampedPose& each : moved) each.pose = each.pose * T_imu_body;
     return moved;
   }
 
@@ -99,15 +107,37 @@ TEST_F(Benchmark, GeodeHasAMatrixAndPositionsAsPoses) {
   EXPECT_LT(score_of("geode"), kRight);
 }
 
+TEST_F(Benchmark, GeodeHasTwoMoreDevices) {
+  Eigen::Matrix3d R;
+  R << 0.998638, 0.052001, -0.004278, -0.051937, 0.998554, 0.013900, 0.004994, -0.013659, 0.999894;
+  test::DataSet beta{"/ouster/points", "os_sensor", "/imu/imu", "imu", CloudLayout::kOuster};
+  beta.T_imu_lidar = mount(R, {-0.027172, -0.034873, 0.062643});
+  beta.T_imu_lidar.rotation.normalize();
+  sequence(beta);
+  ASSERT_TRUE(write_tum(data() / "seq_01_gt.txt", truth({0, 0, 0}, true)));
+  EXPECT_LT(score_of("geode_beta"), kRight);
+  fs::remove(data() / "seq_01.bag");
+  fs::remove(data() / "seq_01_gt.txt");
+  R << 0.999620, 0.027463, 0.002445, -0.027517, 0.999299, 0.025398, -0.001746, -0.025456, 0.999674;
+  test::DataSet gamma{"/livox/lidar", "livox_frame", "/imu/imu", "imu"};
+  gamma.custom_message = true;
+  gamma.T_imu_lidar = mount(R, {0.049258, -0.012500, 0.026946});
+  gamma.T_imu_lidar.rotation.normalize();
+  sequence(gamma, "seq_02");
+  ASSERT_TRUE(write_tum(data() / "seq_02_gt.txt", truth({0, 0, 0}, true)));
+  fs::remove_all(folder_.path() / "out");
+  EXPECT_LT(score_of("geode_gamma", "seq_02"), kRight);
+}
+
 TEST_F(Benchmark, EnwideIsAnOusterWithAPrismAndACommandContinues) {
   test::DataSet set{"/ouster/points", "os_sensor", "/ouster/imu", "os_imu", CloudLayout::kOuster};
   set.T_imu_lidar = kOuster;
   sequence(set, "tunnel_s");
   std::ofstream csv(data() / "gt_tunnel_s.csv");
-  csv << "timestamp,x,y,z\n";
+  csv << "timestamp x y z qx qy qz qw\n";
   for (const StampedPose& each : truth({0.05, 0.1, 0.3}, false)) {
     const Eigen::Vector3d& p = each.pose.translation;
-    csv << fmt::format("{},{},{},{}\n", each.stamp, p.x(), p.y(), p.z());
+    csv << fmt::format("{} {} {} {} 0 0 0 1\n", stamp_text(each.stamp), p.x(), p.y(), p.z());
   }
   csv.close();
   EXPECT_LT(score_of("enwide", "tunnel_s"), kRight);
@@ -122,6 +152,85 @@ TEST_F(Benchmark, NewerCollegeIsAnOusterWithPoses) {
   sequence(set);
   ASSERT_TRUE(write_tum(data() / "seq_01.tum", truth({0, 0, 0}, true)));
   EXPECT_LT(score_of("newer_college"), kRight);
+}
+
+TEST_F(Benchmark, NewerCollege2020HasSecondsAndNanosecondsOfItsCamera) {
+  test::DataSet set{"/os1_cloud_node/points", "os1_lidar", "/os1_cloud_node/imu", "os1_imu",
+                    CloudLayout::kOuster};
+  set.T_imu_lidar = {Eigen::Quaterniond(0, 0, 0, 1), {-0.006253, 0.011775, 0.028535}};
+  set.bag_per_topic = true;
+  sequence(set, "quad_with_dynamics");
+  const Pose T_imu_camera{Eigen::Quaterniond(0.92388, 0, 0, 0.38268),
+                          {0.035643, 0.089026, -0.021653}};
+  std::ofstream csv(data() / "quad_with_dynamics" / "registered_poses.csv");
+  csv << "#sec,nsec,x,y,z,qx,qy,qz,qw\n";
+  for (const StampedPose& each : truth_of(T_imu_camera)) {
+    const Eigen::Vector3d& p = each.pose.translation;
+    const Eigen::Quaterniond& q = each.pose.rotation;
+    csv << fmt::format("{},{},{},{},{},{},{},{},{}\n", each.stamp / kSecond, each.stamp % kSecond,
+                       p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
+  }
+  csv.close();
+  EXPECT_LT(score_of("newer_college_2020", "quad_with_dynamics"), kRight);
+}
+
+TEST_F(Benchmark, OxfordSpiresIsARosbag2WithPosesOfItsBase) {
+  test::DataSet set{"/hesai/pandar", "hesai", "/alphasense_driver_ros/imu", "imu",
+                    CloudLayout::kHesai};
+  // config/sensor.yaml: T_cam_imu and T_cam_lidar of cam_front, T_base_lidar.
+  const Pose T_cam_lidar{Eigen::Quaterniond(0.5013981452864594, 0.5034725628949727,
+                                            0.5003337192107279, -0.4947539264483171),
+                         {0.00035060884033447846, -0.079574053851818, -0.053826061545697405}};
+  const Pose T_cam_imu{Eigen::Quaterniond(0.0018188239395917287, 0.0067828148322833575,
+                                          -0.7111602175046777, 0.7029949006508702),
+                       {-0.004591628876843622, -0.002003031393103538, -0.05479917787120936}};
+  const Pose T_base_lidar{Eigen::Quaterniond(0, 0, 0, 1), {0.0, 0.0, 0.124}};
+  set.T_imu_lidar = T_cam_imu.inverse() * T_cam_lidar;
+  sequence(set, "ros1");
+  const auto converted = aims("convert data/ros1.bag --quiet -o data/keble_college_02/");
+  ASSERT_EQ(converted.exit_code, 0) << converted.output;
+  fs::remove(data() / "ros1.bag");
+  ASSERT_TRUE(write_tum(data() / "keble_college_02" / "gt-tum.txt",
+                        truth_of(set.T_imu_lidar * T_base_lidar.inverse())));
+  EXPECT_LT(score_of("oxford_spires", "keble_college_02"), kRight);
+}
+
+TEST_F(Benchmark, BotanicGardenHasPosesOfItsLidarInTheBag) {
+  Eigen::Matrix3d R;
+  R << 0.999678872580465, 0.0252865664429322, 0.00150422292234868, -0.0252723438960774,
+      0.999649431893338, -0.0078025434141585, -0.00170103929405540, 0.00776298237926191,
+      0.99996789371916;
+  test::DataSet set{"/velodyne_points", "velodyne", "/imu/data", "imu"};
+  set.T_imu_lidar = mount(R, {0.0584867781527745, 0.00840419966766332, 0.168915521980526});
+  set.T_imu_lidar.rotation.normalize();
+  sequence(set, "1018_00");
+  ASSERT_TRUE(write_tum(data() / "1018_00_GT_output.txt", truth_of(set.T_imu_lidar)));
+  EXPECT_LT(score_of("botanic_garden", "1018_00"), kRight);
+  EXPECT_EQ(results()["sequences"][0]["published"]["LOAM"], 0.523);
+}
+
+TEST_F(Benchmark, Hilti2023HasItsOwnClassesOfPoints) {
+  Eigen::Matrix3d R;
+  R << 0, -1, 0, -1, 0, 0, 0, 0, -1;
+  test::DataSet set{"/hesai/pandar", "PandarXT-32", "/alphasense/imu", "imu_sensor_frame",
+                    CloudLayout::kHesai};
+  set.T_imu_lidar = mount(R, {-0.001, -0.00855, 0.055});
+  sequence(set, "site1_handheld_1");
+  fs::create_directories(data() / "groundtruth_2023");
+  ASSERT_TRUE(write_tum(data() / "groundtruth_2023" / "site1_handheld_1.txt",
+                        truth({0.059, -0.00855, 0.1964}, false, 300)));
+  const double score = score_of("hilti23", "site1_handheld_1");
+  EXPECT_GE(score, 25.0) << "5 of 20 for points below 6 cm";
+  EXPECT_LE(score, 100.0);
+}
+
+TEST_F(Benchmark, NtnuTunnelsArePacketsOfAnOusterWithMetadata) {
+  test::write_ouster_packets(data() / "tunnel.bag", 30);
+  // It stands.
+  Trajectory still;
+  for (int i = 0; i <= 30; ++i) still.push_back({test::kDataEpoch + i * kSecond / 10, Pose()});
+  ASSERT_TRUE(write_tum(data() / "tunnel.tum", still));
+  EXPECT_LT(score_of("ntnu_tunnels", "tunnel"), 0.01);
 }
 
 TEST_F(Benchmark, Hilti2022HasControlPointsOfItsTip) {

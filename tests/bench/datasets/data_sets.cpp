@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <map>
 #include <memory>
 #include <utility>
@@ -14,6 +16,7 @@
 #include "recordings/messages/message_encoding.hpp"
 #include "recordings/messages/message_types.hpp"
 #include "tests/independent/recording.hpp"
+#include "tests/recordings/pcap/room_packets.hpp"
 #include "tests/recordings/stream/recorded_deliveries.hpp"
 
 namespace aims::test {
@@ -191,6 +194,38 @@ void write_sequence(const Walked& walked, const DataSet& data, const std::string
     bags.write(data.prism_topic, point_stamped_type(), stamp,
                point_message(stamp, each.pose * p_imu_prism));
   }
+}
+
+void write_ouster_packets(const fs::path& file, int turns) {
+  auto writer = BagWriter::create(file);
+  ASSERT_TRUE(writer) << writer.error().message;
+  const MessageType packet = {"ouster_ros/PacketMsg", "", "uint8[] buf\n"};
+  const auto lidar = writer->add_connection("/os_cloud_node/lidar_packets", packet);
+  const auto imu = writer->add_connection("/os_cloud_node/imu_packets", packet);
+  const auto metadata = writer->add_connection("/os_cloud_node/metadata", string_type());
+  MessageBytes text;
+  text.text(ouster_metadata_text());
+  ASSERT_TRUE(writer->write(metadata, kDataEpoch, text.view()));
+  const auto put = [&](std::uint32_t id, const RoomPacket& each) {
+    MessageBytes message;
+    message.length(each.payload.size());
+    message.append(each.payload.data(), each.payload.size());
+    ASSERT_TRUE(writer->write(id, each.time, message.view()));
+  };
+  auto points = ouster_lidar_packets(kDataEpoch, kDataEpoch, turns);
+  auto inertial = ouster_imu_packets(kDataEpoch, kDataEpoch, 10 * turns);
+  for (RoomPacket& each : inertial) {
+    constexpr std::array<float, 6> kStanding = {0.0F, 0.0F, 1.0F,
+                                                0.0F, 0.0F, 0.0F};  // [g], [deg/s]
+    std::memcpy(each.payload.data() + 3 * sizeof(std::uint64_t), kStanding.data(),
+                sizeof(kStanding));
+  }
+  std::size_t next = 0;
+  for (const RoomPacket& each : points) {
+    while (next < inertial.size() && inertial[next].time <= each.time) put(imu, inertial[next++]);
+    put(lidar, each);
+  }
+  ASSERT_TRUE(writer->close());
 }
 
 }  // namespace aims::test

@@ -40,6 +40,11 @@ struct DataSet {
 void write_sequence(const Walked& walked, const DataSet& data, const std::string& name,
                     const Eigen::Vector3d& p_imu_prism, const std::filesystem::path& folder);
 
+/// Writes packets of an Ouster that stands in a room, with its metadata, as the old ouster_ros did:
+/// /os_cloud_node/lidar_packets, imu_packets (ouster_ros/PacketMsg), metadata. Its clock is that of
+/// the recording.
+void write_ouster_packets(const std::filesystem::path& file, int turns);
+
 /// Stamps of the recordings are those of the walk after this.
 inline constexpr Time kDataEpoch = 1'700'000'000 * kSecond;
 

@@ -30,6 +30,33 @@ double distance(const Pose& a, const Pose& b) {
   return difference.translation.norm() + so3_log(difference.rotation).norm();
 }
 
+TEST(Alignment, OfErrorsOnTheWayIsThatOfACopy) {
+  std::vector<PosePair> pairs;
+  for (int i = 0; i < 50; ++i) {
+    const double t = 0.1 * i;
+    pairs.push_back({i,
+                     {so3_exp({0.1 * t, 0.2, t}), {t, std::sin(t), 0.3}},
+                     {so3_exp({0.0, 0.1 * t, 1.1 * t}), {std::cos(t), t, 0.1 * t}}});
+  }
+  for (const Alignment& alignment : {align_yaw(pairs), align_se3(pairs), align_sim3(pairs)}) {
+    const auto moved = aligned(pairs, alignment);
+    EXPECT_EQ(ate_rmse(pairs, alignment), ate_rmse(moved));
+    EXPECT_EQ(heading_rmse(pairs, alignment), heading_rmse(moved));
+    EXPECT_EQ(position_errors(pairs, alignment), position_errors(moved));
+    EXPECT_EQ(absolute_error_statistics(pairs, alignment)->std_m,
+              absolute_error_statistics(moved)->std_m);
+  }
+}
+
+TEST(ValidPart, IsTheTrajectoryItselfWhereAllPosesAreValid) {
+  Trajectory poses = {{1, Pose()}, {2, Pose()}, {3, Pose()}};
+  EXPECT_EQ(&ValidPart(poses).poses(), &poses);
+  poses[1].stamp = 1;
+  EXPECT_EQ(ValidPart(poses).poses().size(), 2U);
+  poses[2].pose.translation.x() = std::nan("");
+  EXPECT_EQ(ValidPart(poses).poses().size(), 1U);
+}
+
 TEST(AlignSe3, RecoversTheTransformExactly) {
   const Pose T = {so3_exp({0.4, -1.1, 2.0}), {10.0, -7.0, 3.0}};
   const Alignment alignment = align_se3(cloud(T, 0.0, 1));

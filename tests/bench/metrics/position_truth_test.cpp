@@ -126,13 +126,12 @@ TEST(LeverArm, OfABodyThatOnlyTurnsAboutTheVerticalHasNoHeight) {
 }
 
 TEST(ControlPoints, EarnByTheClassesOfTheHiltiChallenge) {
-  std::vector<PosePair> pairs;
-  for (const double error : {0.0, 0.0099, 0.02, 0.05, 0.09, 0.11, 3.0}) {
-    pairs.push_back({0, {{1, 0, 0, 0}, {error, 0.0, 0.0}}, Pose()});
-  }
+  const std::vector<double> errors = {0.0, 0.0099, 0.02, 0.05, 0.09, 0.11, 3.0};
   // 10 + 10 + 6 + 3 + 1 of 8 points, one of which was not reached.
-  EXPECT_DOUBLE_EQ(control_point_score(pairs, 8), 100.0 * 30.0 / 80.0);
+  EXPECT_DOUBLE_EQ(control_point_score(errors, 8), 100.0 * 30.0 / 80.0);
   EXPECT_EQ(control_point_score({}, 0), 0.0);
+  // Of 2023: 20 + 10 + 6 + 5 + 3 + 1.
+  EXPECT_DOUBLE_EQ(control_point_score_2023(errors, 8), 100.0 * 45.0 / 160.0);
 }
 
 TEST(ControlPoints, AreComparedAtTheirStampsWithTheEstimateInterpolated) {

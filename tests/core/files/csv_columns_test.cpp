@@ -58,6 +58,17 @@ TEST(CsvColumns, AcceptsCarriageReturns) {
   EXPECT_EQ(*table->numbers("b"), std::vector<double>{2.0});
 }
 
+TEST(CsvColumns, ReadsDecimalCommasWhereTheySeparateNoCells) {
+  for (const std::string text :
+       {"t;x;name\n0,5;-1,25e2;a,b\n", "t\tx\tname\n0,5\t-1,25e2\ta,b\n"}) {
+    const auto csv = CsvColumns::parse(text, "c", {}, CsvOrigin::kForeign);
+    ASSERT_TRUE(csv) << csv.error().message;
+    EXPECT_EQ(csv->numbers("t").value(), std::vector<double>{0.5});
+    EXPECT_EQ(csv->numbers("x").value(), std::vector<double>{-125.0});
+    EXPECT_EQ(csv->texts("name"), std::vector<std::string>{"a,b"});
+  }
+}
+
 TEST(CsvColumns, KeepsTheCarriageReturnOfAQuotedCell) {
   const auto table = CsvColumns::parse("a,\"b\r\"\r\n1,\"\r\"\n", "t.csv");
   ASSERT_TRUE(table);

@@ -100,7 +100,8 @@ TEST_F(CloudTimes, TimesFromTheStartOfAScanMayHaveTheStampAtItsEnd) {
 }
 
 /// Clouds of eight points at 10 Hz whose times run to `last`, recorded `latency` after their stamp.
-Recording read_timed(const std::filesystem::path& bag, float last, Duration latency) {
+Recording read_timed(const std::filesystem::path& bag, float last, Duration latency,
+                     float first = 0.0F) {
   RobotRecording robot(bag);
   robot.add_transforms(kMounted);
   robot.add_imu(kStart, 60);
@@ -108,7 +109,7 @@ Recording read_timed(const std::filesystem::path& bag, float last, Duration late
     std::vector<std::array<float, 4>> points;
     for (int i = 0; i < 8; ++i) {
       const auto turn = static_cast<float>(i);
-      points.push_back({4.0F - turn, 2.0F, 0.1F * turn, last / 7.0F * turn});
+      points.push_back({4.0F - turn, 2.0F, 0.1F * turn, first + (last - first) / 7.0F * turn});
     }
     const Time stamp = kStart + k * 100 * kMillisecond;
     robot.add_cloud(RawCloud::of(stamp, points), stamp + latency);
@@ -123,6 +124,15 @@ TEST_F(CloudTimes, TimesFromZeroToOneAreFractionsOfTheScan) {
   ASSERT_EQ(read.setup.warnings.size(), 1U);
   const auto scans = test::scans_of(read.deliveries);
   EXPECT_EQ(scans[2]->stamp, kStart + 200 * kMillisecond);
+  EXPECT_NEAR(scans[2]->points[7].time_offset_ns, 100e6, 20.0);
+}
+
+TEST_F(CloudTimes, TimesFromMinusOneToZeroAreFractionsBeforeTheEndOfTheScan) {
+  const Recording read = read_timed(bag(), 0.0F, 5 * kMillisecond, -1.0F);
+  EXPECT_TRUE(read.noted("runs from -1 to 0 over scans of 0.1 s"));
+  EXPECT_TRUE(read.noted("it marks the end of the scan"));
+  const auto scans = test::scans_of(read.deliveries);
+  EXPECT_EQ(scans[2]->stamp, kStart + 100 * kMillisecond);
   EXPECT_NEAR(scans[2]->points[7].time_offset_ns, 100e6, 20.0);
 }
 

@@ -61,6 +61,13 @@ Eigen::Vector4d quaternion_xyzw() {
           cr * cp * cy + sr * sp * sy};
 }
 
+/// x y z qx qy qz qw.
+std::string seven(const Eigen::Matrix4d& T) {
+  const Eigen::Quaterniond q(Eigen::Matrix3d(T.topLeftCorner<3, 3>()));
+  return flat(T.topRightCorner<3, 1>()) +
+         fmt::format(", {:.12f}, {:.12f}, {:.12f}, {:.12f}", q.x(), q.y(), q.z(), q.w());
+}
+
 void expect_right(const Result<Pose>& pose, const std::string& what) {
   ASSERT_TRUE(pose) << what << ": " << pose.error().message;
   EXPECT_LT((pose->translation - kTranslation).norm(), 1e-9) << what;
@@ -91,6 +98,17 @@ std::vector<std::string> written() {
           flat(T_cam_imu.row(1)) + "]\n  - [" + flat(T_cam_imu.row(2)) + "]\n  - [" +
           flat(T_cam_imu.row(3)) + "]\n  camera_model: pinhole\n  T_cam_lidar: [" +
           flat(T_cam_imu * T) + "]\n",
+      // MultiCal: sensors in the reference, which is the IMU or a camera.
+      "lidar0:\n  T_here_imu0:" + rows(inverse) +
+          "\n  relative_point_timestamp: false\n  rostopic: /rslidar_points\n",
+      R"({"imu0": {"T_here_cam0": [)" + flat(T_cam_imu.inverse()) +
+          R"(]}, "lidar0": {"T_here_cam0": [)" + flat((T_cam_imu * T).inverse()) + "]}}",
+      // Oxford Spires: one of three cameras has both.
+      "sensor:\n  cameras:\n    - label: cam_left\n      T_cam_lidar_t_xyz_q_xyzw: [9, 9, 9, 0, 0, "
+      "0, "
+      "1]\n    - label: cam_front\n      T_cam_lidar_t_xyz_q_xyzw: [" +
+          seven(T_cam_imu * T) + "]\n      T_cam_imu_t_xyz_q_xyzw: [" + seven(T_cam_imu) +
+          "]\n  T_base_lidar_t_xyz_q_xyzw: [0.0, 0.0, 0.124, 0.0, 0.0, 1.0, 0.0]\n",
       "lidar_in_imu: [" + flat(T) + "]\n",
       "imu_in_lidar:\n  translation: [" + flat(inverse.topRightCorner<3, 1>()) +
           "]\n  rotation_matrix: [" + flat(inverse.topLeftCorner<3, 3>()) + "]\n",
@@ -190,6 +208,8 @@ TEST(Calibration, WhatIsNoRigidTransformIsRefusedByItsPlace) {
   T = T_imu_lidar();
   T(0, 3) = 350.0;
   EXPECT_NE(message("T_imu_lidar: [" + flat(T) + "]").find("in metres"), std::string::npos);
+  EXPECT_NE(message("T_base_lidar_t_xyz_q_xyzw: [0, 0, 0, 1]").find("expected 7 numbers: x y z qx"),
+            std::string::npos);
   EXPECT_NE(message("\nstatic_transform_publisher 1 2 3 imu lidar").find("c.yaml:2: expected 'x y"),
             std::string::npos);
   EXPECT_NE(message("<robot>\n<joint type='fixed'>\n<child link='b'/></joint></robot>")

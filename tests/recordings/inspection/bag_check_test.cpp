@@ -209,6 +209,13 @@ TEST(BagWarnings, EachNamesItsRemedy) {
       {"recording.T_imu_lidar", [](BagInfo& bag) { bag.transforms.clear(); }},
       {"rosbag reindex", [](BagInfo& bag) { bag.file = "walk.bag", bag.summary.closed = false; }},
       {"enable it", [](BagInfo& bag) { remove_field(bag, "time"); }},
+      {"the recording was paused, or all clocks were set forward",
+       [](BagInfo& bag) {
+         for (TopicInfo& topic : bag.topics) {
+           topic.largest_gap_s = 3600.1;
+           topic.loss = 0.9;
+         }
+       }},
   };
   for (const Case& each : cases) {
     BagInfo bag = good_bag();

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -118,6 +120,72 @@ TEST_F(Packets, OfAVelodyneBecomeScansOfTheRoom) {
   }
 }
 
+TEST_F(Packets, ThatAreSentTwiceOrLateChangeNoScan) {
+  std::vector<RoomPacket> packets = test::vlp16_packets(kBegin, 3);
+  std::vector<RoomPacket> twice;
+  for (const RoomPacket& each : packets) twice.insert(twice.end(), 2, each);
+  EXPECT_EQ(test::scans_of(read(kVelodyne, twice, 152).deliveries).size(), 3U);
+  std::swap(packets[20], packets[21]);
+  const Recording late = read(kVelodyne, packets, 76);
+  const auto scans = test::scans_of(late.deliveries);
+  ASSERT_EQ(scans.size(), 3U);
+  expect_on_walls(*scans[0]);
+}
+
+TEST_F(Packets, ThatGoOnceAroundFromAnywhereAreOneScan) {
+  const std::vector<RoomPacket> packets = test::vlp16_packets(kBegin, 3);
+  const std::size_t turn = packets.size() / 3, from = turn / 4;
+  const auto cut = [&](std::size_t count) {
+    const auto begin = packets.begin() + static_cast<std::ptrdiff_t>(from);
+    const std::vector<RoomPacket> some(begin, begin + static_cast<std::ptrdiff_t>(count));
+    return test::scans_of(read(kVelodyne, some, count).deliveries);
+  };
+  EXPECT_TRUE(cut(turn - 3).empty()) << "a gap of about 14 degrees";
+  for (const std::size_t count : {turn + 2, turn + turn / 2}) {
+    const auto scans = cut(count);
+    ASSERT_EQ(scans.size(), 1U) << count;
+    expect_on_walls(*scans[0]);
+    EXPECT_NEAR(static_cast<double>(scans[0]->points.size()), 16 * 0.1 / 55.296e-6, 400.0);
+    std::array<int, 36> sectors{};
+    for (const LidarPoint& point : scans[0]->points) {
+      EXPECT_GE(point.time_offset_ns, 0);
+      const double azimuth = std::atan2(point.position.y(), point.position.x()) / kDegree;
+      ++sectors.at(static_cast<std::size_t>(std::min(35.0, (azimuth + 180.0) / 10.0)));
+    }
+    EXPECT_GT(*std::ranges::min_element(sectors), 700) << "of about 800 each";
+    EXPECT_LT(*std::ranges::max_element(sectors), 900);
+  }
+}
+
+TEST_F(Packets, OfOtherVelodynesBecomeScansOfTheRoom) {
+  for (const test::VelodyneBeams& beams : {test::hdl32e(), test::vlp32c(), test::puck_hi_res()}) {
+    SCOPED_TRACE(static_cast<int>(beams.code));
+    const Recording recording = read(kVelodyne, test::velodyne_packets(kBegin, 3, beams), 76);
+    ASSERT_EQ(recording.error, "");
+    const auto scans = test::scans_of(recording.deliveries);
+    ASSERT_EQ(scans.size(), 3U);
+    std::vector<double> sorted = beams.elevation;
+    std::ranges::sort(sorted);
+    const auto lasers = static_cast<double>(sorted.size());
+    for (const auto& scan : scans) {
+      EXPECT_NEAR(static_cast<double>(scan->points.size()), lasers * 0.1e6 / beams.cycle, 900.0);
+      expect_on_walls(*scan);
+      for (const LidarPoint& point : scan->points) {
+        const double time = to_seconds(scan->stamp + point.time_offset_ns - kBegin);
+        const double azimuth = std::atan2(-point.position.y(), point.position.x()) / kDegree;
+        const double across = std::hypot(point.position.x(), point.position.y());
+        const double up = std::atan2(point.position.z(), across) / kDegree;
+        EXPECT_NEAR(up, sorted.at(point.ring), 0.01);
+        const auto laser = std::ranges::find_if(
+            beams.elevation, [&](double each) { return std::abs(each - up) < 0.02; });
+        ASSERT_NE(laser, beams.elevation.end());
+        const double ahead = beams.ahead[static_cast<std::size_t>(laser - beams.elevation.begin())];
+        EXPECT_LT(off_by(azimuth, 3600.0 * time + ahead), 0.05);
+      }
+    }
+  }
+}
+
 TEST_F(Packets, OfAHesaiBecomeScansOfTheRoom) {
   for (const Driver& driver : {kGeneralPandar, kPandar, kUdpFrame}) {
     SCOPED_TRACE(driver.type);
@@ -204,17 +272,19 @@ TEST_F(Packets, OfAnotherRobosenseAreNamed) {
   auto packets = test::rs16_packets(kBegin, 1);
   for (RoomPacket& each : packets) each.payload[30] = std::byte{2};
   const std::string error = read(kRobosense, packets, 84).error;
-  EXPECT_NE(error.find("expected packets of an RS-LiDAR-16 (model 0x01), found model 0x02 (an "
-                       "RS-LiDAR-32)"),
+  EXPECT_NE(error.find("packets of an RS-LiDAR-32 (0x02); read are those of an RS-LiDAR-16"),
             std::string::npos)
       << error;
 }
 
 TEST_F(Packets, OfAnotherModelAreNamed) {
   auto packets = test::xt_packets(kBegin, 1);
-  for (RoomPacket& each : packets) each.payload[2] = std::byte{4};
+  for (RoomPacket& each : packets) {
+    each.payload[2] = std::byte{3};
+    each.payload[6] = std::byte{64};
+  }
   const std::string error = read(kUdpFrame, packets, 250).error;
-  EXPECT_NE(error.find("topic '/packets': expected packets of a Hesai XT32 or XT16"),
+  EXPECT_NE(error.find("topic '/packets': packets of a Hesai QT64 with 1080 bytes; read are"),
             std::string::npos)
       << error;
 }

@@ -97,10 +97,15 @@ TEST(VelodyneScans, TurnsTheHeadBetweenBlocksAndAfterTheLast) {
 
 TEST(VelodyneScans, RefusesOtherModels) {
   VelodyneScans scans;
-  const auto added = scans.add(velodyne_packet(blocks_from(0, 20), 0, 0x28).bytes, 0);
+  const auto added = scans.add(velodyne_packet(blocks_from(0, 20), 0, 0xa1).bytes, 0);
   ASSERT_FALSE(added);
   EXPECT_EQ(added.error().message,
-            "expected packets of a VLP-16 (0x22), found model 0x28 (a VLP-32C)");
+            "packets of a VLS-128 (0xa1); read are those of one VLP-16, Puck Hi-Res, HDL-32E or "
+            "VLP-32C");
+  ASSERT_TRUE(scans.add(velodyne_packet(blocks_from(0, 20), 0).bytes, 0));
+  const auto other = scans.add(velodyne_packet(blocks_from(0, 20), 0, 0x28).bytes, 0);
+  ASSERT_FALSE(other);
+  EXPECT_EQ(other.error().message, "packets of a VLP-32C; read are those of one VLP-16");
 }
 
 OusterMetadata ouster(const std::string& profile) {
@@ -254,10 +259,31 @@ TEST_F(Capture, RefusesWhatIsMalformed) {
                 .find("at byte 24: expected a frame of at most 262144 bytes, found 524288"),
             std::string::npos);
   EXPECT_NE(refusal(header() + packet + frame(velodyne_packet(blocks_from(0, 20), 0, 0x28)))
-                .find(at_byte(24 + packet.size()) + "expected packets of a VLP-16"),
+                .find(at_byte(24 + packet.size()) + "packets of a VLP-32C"),
             std::string::npos);
   EXPECT_NE(refusal(header() + packet).find("expected complete scans of a Velodyne VLP-16"),
             std::string::npos);
+}
+
+TEST_F(Capture, OfOtherLidarsNamesThem) {
+  const auto of = [](std::initializer_list<int> first, std::size_t size) {
+    Packet packet;
+    for (const int byte : first) packet.put(static_cast<std::uint8_t>(byte));
+    packet.zeros(size - first.size());
+    return packet;
+  };
+  const std::pair<Packet, std::string> packets[] = {
+      {of({0xff, 0xee}, 1262), "; packets of a Hesai Pandar40P;"},
+      {of({0xee, 0xff, 64, 6}, 1194), "packets of a Hesai Pandar64 with 1194 bytes"},
+      {of({0xee, 0xff, 1, 4, 0, 0, 128, 2}, 861), "packets of a Hesai Pandar128"},
+      {of({0xee, 0xff, 3, 2, 0, 0, 128, 2}, 1127), "packets of a Hesai QT128"},
+      {of({0x55, 0xaa, 0x5a, 0xa5}, 1210), "; packets of a RoboSense M1, M2 or E1;"},
+      {of({0, 0x64, 0x05}, 1380), "; packets of a Livox HAP or Mid-360;"},
+      {of({1}, 12608), "; packets of an Ouster;"}};
+  for (const auto& [packet, expected] : packets) {
+    const std::string message = refusal(header() + frame(packet));
+    EXPECT_NE(message.find(expected), std::string::npos) << expected << '\n' << message;
+  }
 }
 
 TEST_F(Capture, OfAHesaiHasItsScans) {

@@ -155,6 +155,72 @@ std::vector<RoomPacket> vlp16_packets(Time start, int turns) {
   return packets;
 }
 
+VelodyneBeams hdl32e() {
+  return {0x21,
+          {-30.67, -9.33,  -29.33, -8.00,  -28.00, -6.67,  -26.67, -5.33,  -25.33, -4.00,  -24.00,
+           -2.67,  -22.67, -1.33,  -21.33, 0.00,   -20.00, 1.33,   -18.67, 2.67,   -17.33, 4.00,
+           -16.00, 5.33,   -14.67, 6.67,   -13.33, 8.00,   -12.00, 9.33,   -10.67, 10.67},
+          std::vector<double>(32, 0.0),
+          0.002,
+          46.080,
+          1.152};
+}
+
+VelodyneBeams vlp32c() {
+  return {0x28,
+          {-25,    -1,     -1.667, -15.639, -11.31, 0,      -0.667, -8.843, -7.254, 0.333,  -0.333,
+           -6.148, -5.333, 1.333,  0.667,   -4,     -4.667, 1.667,  1,      -3.667, -3.333, 3.333,
+           2.333,  -2.667, -3,     7,       4.667,  -2.333, -2,     15,     10.333, -1.333},
+          {1.4, -4.2, 1.4, -1.4, 1.4, -1.4, 4.2, -1.4, 1.4, -4.2, 1.4, -1.4, 4.2, -1.4, 4.2, -1.4,
+           1.4, -4.2, 1.4, -4.2, 4.2, -1.4, 1.4, -1.4, 1.4, -1.4, 1.4, -4.2, 4.2, -1.4, 1.4, -1.4},
+          0.004,
+          55.296,
+          2.304,
+          2};
+}
+
+VelodyneBeams puck_hi_res() {
+  return {0x24,
+          {-10, 0.667, -8.667, 2, -7.333, 3.333, -6, 4.667, -4.667, 6, -3.333, 7.333, -2, 8.667,
+           -0.667, 10},
+          std::vector<double>(16, 0.0),
+          0.002,
+          55.296,
+          2.304};
+}
+
+std::vector<RoomPacket> velodyne_packets(Time start, int turns, const VelodyneBeams& beams) {
+  const std::size_t lasers = beams.elevation.size();
+  const double block = 1e3 * beams.cycle * static_cast<double>(32 / lasers);  // [ns]
+  std::vector<RoomPacket> packets;
+  for (int first = 0; first * block < turns * static_cast<double>(kTurn); first += 12) {
+    const Time time = start + static_cast<Time>(first * block) / 1000 * 1000;
+    Bytes out;
+    for (int i = 0; i < 12; ++i) {
+      const double begin = 36000.0 * (first + i) * block / static_cast<double>(kTurn);
+      out.put(std::uint16_t{0xeeff});
+      out.put(static_cast<std::uint16_t>(static_cast<long>(begin) % 36000));
+      for (std::size_t firing = 0; firing < 32; ++firing) {
+        const std::size_t laser = firing % lasers;
+        const double after = 1e3 * (static_cast<double>(firing / lasers) * beams.cycle +
+                                    static_cast<double>(laser / beams.at_once) * beams.firing);
+        const double azimuth = begin * kDegree / 100.0 + beams.ahead[laser] * kDegree +
+                               2.0 * std::numbers::pi * after / static_cast<double>(kTurn);
+        const double up = beams.elevation[laser] * kDegree;
+        const double range = range_in_room(
+            {0, 0, 0},
+            {std::cos(up) * std::cos(azimuth), -std::cos(up) * std::sin(azimuth), std::sin(up)});
+        out.put(static_cast<std::uint16_t>(std::lround(range / beams.unit)));
+        out.put(static_cast<std::uint8_t>(100 + laser));
+      }
+    }
+    out.put(static_cast<std::uint32_t>(time % (3600 * kSecond) / 1000));
+    out.put(std::uint8_t{0x37}).put(beams.code);
+    packets.push_back({time + 1'400'000, std::move(out.all)});
+  }
+  return packets;
+}
+
 std::vector<RoomPacket> xt_packets(Time start, int turns, int lasers) {
   constexpr Duration kBlock = 50'000;
   std::vector<RoomPacket> packets;

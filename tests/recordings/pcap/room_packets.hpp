@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,18 @@ inline constexpr double kRoom[3] = {4.0, 3.0, 1.5};  ///< half lengths [m]
 
 /// Of a VLP-16 (user manual 63-9243) from azimuth 0 on; `start` is a whole number of microseconds.
 std::vector<RoomPacket> vlp16_packets(Time start, int turns);
+
+/// Of an HDL-32E, VLP-32C or Puck Hi-Res, by the tables of velodyne_pointcloud and VeloView.
+struct VelodyneBeams {
+  std::uint8_t code;
+  std::vector<double> elevation, ahead;  ///< by laser; of the block's azimuth; clockwise [deg]
+  double unit, cycle, firing;            ///< of a distance [m]; of all lasers, between them [us]
+  std::size_t at_once = 1;               ///< lasers that fire together
+};
+VelodyneBeams hdl32e();
+VelodyneBeams vlp32c();
+VelodyneBeams puck_hi_res();
+std::vector<RoomPacket> velodyne_packets(Time start, int turns, const VelodyneBeams& beams);
 
 /// Of a Hesai with 32 or 16 lasers (XT32, XT16: user manuals, protocol 6.1) from azimuth 0 on,
 /// which is 3.28 us after `start`, a whole number of microseconds.

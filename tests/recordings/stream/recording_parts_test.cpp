@@ -63,6 +63,19 @@ TEST(LegNames, FollowTheConventionsOfManyRobots) {
   EXPECT_EQ(joint_of_name("wheel"), std::nullopt);
 }
 
+TEST(LegNames, AHipBesideAnAbadIsTheJointThatPitches) {
+  std::vector<std::string> text;
+  for (const char* leg : {"fr", "fl", "hr", "hl"}) {
+    for (const char* joint : {"abad", "hip", "knee"}) {
+      text.push_back(std::string(joint) + '_' + leg + "_joint");
+    }
+  }
+  const std::vector<std::string_view> names(text.begin(), text.end());
+  const auto order = joint_order(names, {}, 12);
+  ASSERT_TRUE(order);
+  EXPECT_EQ(*order, (JointOrder{3, 4, 5, 0, 1, 2, 9, 10, 11, 6, 7, 8}));
+}
+
 TEST(LegNames, UnknownNamesOfTwelveJointsTellNoOrder) {
   const std::vector<std::string> unknown = {"j1", "j2", "j3", "j4",  "j5",  "j6",
                                             "j7", "j8", "j9", "j10", "j11", "j12"};

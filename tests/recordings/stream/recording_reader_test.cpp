@@ -106,6 +106,77 @@ TEST_F(RecordingReaderTest, ARecorderClockThatIsSetBackChangesNoOrder) {
   EXPECT_EQ(samples, 300);
 }
 
+/// An IMU at 50 Hz and clouds at 10 Hz over 6 s; the recorder's clock is set back at 3 s.
+Recording read_set_back(const std::filesystem::path& bag, Duration back) {
+  std::filesystem::remove(bag);
+  RobotRecording robot(bag);
+  robot.add_transforms(kMounted);
+  const auto recorded = [&](Time at) { return at - (at >= kEpochStart + 3 * kSecond ? back : 0); };
+  for (int k = 0; k < 300; ++k) {
+    ImuSample sample;
+    sample.stamp = kEpochStart + k * 20 * kMillisecond;
+    sample.specific_force.z() = 9.81;
+    robot.add("/imu", imu_type(), recorded(sample.stamp + kMillisecond),
+              imu_message({0, sample.stamp, "imu"}, sample));
+    if (k % 5 != 0) continue;
+    const Time stamp = sample.stamp - 100 * kMillisecond;
+    robot.add_cloud(RawCloud::of(stamp, {{1, 2, 0, 0}, {2, 1, 1, 0.09F}}),
+                    recorded(sample.stamp + 2 * kMillisecond));
+  }
+  robot.close();
+  return test::read_recording(bag);
+}
+
+TEST_F(RecordingReaderTest, AClockThatIsSetBackBeforeTheFirstScansChangesNoOrder) {
+  for (const Duration back : {kSecond / 2, kSecond, 4 * kSecond}) {
+    const Recording read = read_set_back(bag(), back);
+    EXPECT_FALSE(read.counts.contains("lidar_stamp_not_increasing")) << back;
+    EXPECT_FALSE(read.counts.contains("imu_stamp_not_increasing")) << back;
+    EXPECT_FALSE(read.noted("if their clocks differ")) << back;
+    EXPECT_EQ(test::scans_of(read.deliveries).size(), 60U) << back;
+  }
+}
+
+TEST_F(RecordingReaderTest, OneRecordTimeForAllMessagesGivesWayToStamps) {
+  for (const Time recorded : {Time{0}, kEpochStart}) {
+    std::filesystem::remove(bag());
+    RobotRecording robot(bag());
+    robot.add("/tf_static", transforms_type(), recorded, transforms_message(0, kMounted));
+    for (int k = 0; k < 100; ++k) {
+      ImuSample sample;
+      sample.stamp = kEpochStart + k * 20 * kMillisecond;
+      robot.add("/imu", imu_type(), recorded, imu_message({0, sample.stamp, "imu"}, sample));
+      if (k % 5 != 4) continue;
+      robot.add_cloud(
+          RawCloud::of(sample.stamp - 80 * kMillisecond, {{1, 2, 0, 0}, {2, 1, 1, 0.08F}}),
+          recorded);
+    }
+    robot.close();
+    const Recording read = test::read_recording(bag());
+    ASSERT_EQ(read.error, "");
+    EXPECT_TRUE(read.noted("record times are all the same"));
+    EXPECT_TRUE(read.counts.empty()) << read.counts.begin()->first;
+    EXPECT_FALSE(read.noted("NO TRANSFORM"));
+    const auto scans = test::scans_of(read.deliveries);
+    ASSERT_EQ(scans.size(), 20U);
+    EXPECT_EQ(scans[3]->stamp, kEpochStart + 300 * kMillisecond);
+  }
+}
+
+TEST_F(RecordingReaderTest, SingleStampsOfZeroAreLeftOut) {
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  ImuSample unset;
+  for (int k = 0; k < 5; ++k) {
+    robot.add("/imu", imu_type(), kEpochStart - kSecond, imu_message({0, 0, "imu"}, unset));
+  }
+  robot.add_imu(kEpochStart, 100);
+  robot.add_clouds(kEpochStart, 10);
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  EXPECT_EQ(read.counts, (std::map<std::string, int>{{"stamp_not_set", 5}}));
+}
+
 TEST_F(RecordingReaderTest, ALidarClockSinceBootIsAWarningWithTheDelayThatCorrectsIt) {
   RobotRecording robot(bag());
   robot.add_transforms(kMounted);

@@ -238,6 +238,48 @@ TEST_F(TrajectoryFiles, TablesHaveWWhereTheirHeaderOrTheirStampsTell) {
   EXPECT_NE(message_of(file("wide.txt", "\xff\xfe\n")).find("UTF-16"), std::string::npos);
 }
 
+TEST_F(TrajectoryFiles, ColumnsAreFoundByTheirNames) {
+  const std::vector<std::string> texts = {
+      "#sec,nsec,x,y,z,qx,qy,qz,qw\n1700000001,5000000,1,2,-3,0,0,0.6,0.8\n",  // Newer College
+      "timestamp x y z qx qy qz qw\n1700000001.005 1 2 -3 0 0 0.6 0.8\n",      // ENWIDE
+      "t\tx\ty\tz\tqw\tqx\tqy\tqz\n1700000001.005\t1\t2\t-3\t0.8\t0\t0\t0.6\n",
+      "index;time;x;y;z;qx;qy;qz;qw\r\n7;1700000001,005;1,0;2,0;-3,0;0;0;0,6;0,8\r\n",
+      "%time,field.header.seq,field.header.stamp,field.header.frame_id,field.pose.position.x,"
+      "field.pose.position.y,field.pose.position.z,field.pose.orientation.x,"
+      "field.pose.orientation.y,field.pose.orientation.z,field.pose.orientation.w\n"
+      "1800000000000000000,4,1700000001005000000,map,1,2,-3,0,0,0.6,0.8\n",  // rostopic echo -p
+      "timestamp [us],p_x [m],p_y [m],p_z [m],q_w [],q_x [],q_y [],q_z []\n"
+      "1700000001005000,1,2,-3,0.8,0,0,0.6\n",
+      "time_ms,x,y,z,qx,qy,qz,qw\n1700000001005,1,2,-3,0,0,0.6,0.8\n",
+      "1700000001005 1 2 -3 0 0 0.6 0.8\n",
+      "1700000001005000000 1 2 -3 0.8 0 0 0.6\n",
+      "% a comment\n1700000001.005 1 2 -3 0 0 0.6 0.8\n",
+      "// a comment\n1700000001.005 1 2 -3 0 0 0.6 0.8 # and one more\n",
+      "1700000001.005 1 2 -3 0 0 0.6 0.8\r1700000002 1 2 -3 0 0 0.6 0.8\r"};
+  for (const std::string& text : texts) {
+    const auto read = read_trajectory(file("table.csv", text), {});
+    ASSERT_TRUE(read) << text << read.error().message;
+    ASSERT_FALSE(read->trajectory.empty()) << text;
+    const StampedPose& pose = read->trajectory[0];
+    EXPECT_EQ(pose.stamp, 1700000001005000000) << text;
+    EXPECT_EQ(pose.pose.translation, Eigen::Vector3d(1, 2, -3)) << text;
+    EXPECT_NEAR(pose.pose.rotation.w(), 0.8, 1e-15) << text;
+    EXPECT_NEAR(pose.pose.rotation.z(), 0.6, 1e-15) << text;
+  }
+}
+
+TEST_F(TrajectoryFiles, NumbersWithoutNamesAreNoOtherColumns) {
+  EXPECT_NE(message_of(file("t", "0 1700000001 1 2 3 0 0 0 1\n")).find("t:1: expected 8 columns"),
+            std::string::npos);
+}
+
+TEST_F(TrajectoryFiles, EmptyCellsAreNoPosition) {
+  const auto read = read_trajectory(file("p.csv", "t,x,y,z\n1,1,2,3\n2,,,\n3,4,5,6\n"), {});
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->trajectory.size(), 2U);
+  EXPECT_NE(read->notes.back().find("1 of 3 poses dropped: 1 not finite"), std::string::npos);
+}
+
 TEST_F(TrajectoryFiles, APipeIsRefusedAtOnce) {
   const auto pipe = folder_.path() / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);

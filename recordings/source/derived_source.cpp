@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/source/derived_source.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace aims {
+
+DerivedSource::DerivedSource(std::unique_ptr<MessageSource> source)
+    : source_(std::move(source)), connections_(source_->connections()) {
+  for (const BagConnection& each : connections_) {
+    recorded_.insert(each.id);
+    wanted_.insert(each.id);
+  }
+}
+
+const BagConnection* DerivedSource::connection(std::uint32_t id) const {
+  return &*std::ranges::find(connections_, id, &BagConnection::id);
+}
+
+std::uint32_t DerivedSource::add_topic(std::string topic, const MessageType& type,
+                                       std::uint64_t messages,
+                                       const std::set<std::uint32_t>& from) {
+  BagConnection added;
+  for (const BagConnection& each : connections_) added.id = std::max(added.id, each.id + 1);
+  added.topic = std::move(topic);
+  added.type = type.name;
+  added.md5 = type.md5;
+  added.definition = type.definition;
+  const bool elsewhere = std::ranges::any_of(connections_, [&](const BagConnection& each) {
+    return recorded_.contains(each.id) && !from.contains(each.id) && each.type == type.name &&
+           each.messages > 0;
+  });
+  added.messages = elsewhere ? 0 : messages;
+  const std::uint32_t id = added.id;
+  connections_.push_back(std::move(added));
+  from_[id] = from;
+  wanted_.insert(id);
+  seen_.insert(from.begin(), from.end());
+  return id;
+}
+
+void DerivedSource::select(std::span<const std::string> topics) {
+  wanted_.clear();
+  seen_.clear();
+  std::set<std::string> needed;
+  for (const BagConnection& each : connections_) {
+    if (std::ranges::find(topics, each.topic) == topics.end()) continue;
+    wanted_.insert(each.id);
+    if (recorded_.contains(each.id)) needed.insert(each.topic);
+    const auto from = from_.find(each.id);
+    if (from == from_.end()) continue;
+    seen_.insert(from->second.begin(), from->second.end());
+    for (const std::uint32_t id : from->second) needed.insert(connection(id)->topic);
+  }
+  source_->select(std::vector<std::string>(needed.begin(), needed.end()));
+}
+
+void DerivedSource::give(std::uint32_t id, Time record_time, MessageBytes bytes) {
+  if (wanted_.contains(id)) made_.push_back({id, record_time, std::move(bytes)});
+}
+
+Result<std::optional<BagMessage>> DerivedSource::next() {
+  while (true) {
+    if (!made_.empty()) {
+      lent_ = std::move(made_.front());
+      made_.pop_front();
+      return BagMessage{connection(lent_->id), lent_->time, lent_->bytes.view(), 0};
+    }
+    auto message = source_->next();
+    if (!message || !*message) return message;
+    const std::uint32_t id = (*message)->connection->id;
+    if (seen_.contains(id)) {
+      if (auto seen = see(**message); !seen) return tl::unexpected(seen.error());
+    }
+    if (!wanted_.contains(id)) continue;
+    BagMessage same = **message;
+    same.connection = connection(id);
+    return std::optional<BagMessage>(same);
+  }
+}
+
+void DerivedSource::rewind() {
+  source_->rewind();
+  made_.clear();
+  lent_.reset();
+  restart();
+}
+
+}  // namespace aims

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "recordings/bag/message_source.hpp"
+#include "recordings/messages/message_bytes.hpp"
+#include "recordings/messages/message_type.hpp"
+
+namespace aims {
+
+/// A recording with further topics, whose messages are made of recorded ones.
+class DerivedSource : public MessageSource {
+ public:
+  std::string name() const override { return source_->name(); }
+  const std::vector<BagConnection>& connections() const override { return connections_; }
+  const BagSummary& summary() const override { return source_->summary(); }
+  void select(std::span<const std::string> topics) override;
+  Result<std::optional<BagMessage>> next() override;
+  void rewind() override;
+
+ protected:
+  explicit DerivedSource(std::unique_ptr<MessageSource> source);
+
+  /// Adds a topic, made of the messages of `from`; of these many messages. Where the recording has
+  /// a topic of that type elsewhere, this one is only chosen by its name.
+  std::uint32_t add_topic(std::string topic, const MessageType& type, std::uint64_t messages,
+                          const std::set<std::uint32_t>& from);
+
+  /// Gives a made message.
+  void give(std::uint32_t id, Time record_time, MessageBytes bytes);
+
+  /// Sees each message that a wanted topic is made of.
+  virtual Result<void> see(const BagMessage& message) = 0;
+
+  /// Forgets what was seen.
+  virtual void restart() {}
+
+ private:
+  struct Made {
+    std::uint32_t id = 0;
+    Time time = 0;
+    MessageBytes bytes;
+  };
+
+  const BagConnection* connection(std::uint32_t id) const;
+
+  std::unique_ptr<MessageSource> source_;
+  std::vector<BagConnection> connections_;
+  std::set<std::uint32_t> recorded_, wanted_, seen_;  ///< connections
+  std::map<std::uint32_t, std::set<std::uint32_t>> from_;
+  std::deque<Made> made_;
+  std::optional<Made> lent_;  ///< that the caller has
+};
+
+}  // namespace aims
