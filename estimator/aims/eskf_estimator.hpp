@@ -12,8 +12,8 @@
 #include "estimator/aims/robot_knowledge.hpp"
 #include "estimator/estimator.hpp"
 #include "estimator/filter/kalman_update.hpp"
-#include "estimator/filter/motion_variance.hpp"
 #include "estimator/filter/measurement_queue.hpp"
+#include "estimator/filter/motion_variance.hpp"
 #include "estimator/ground/ground_constraint.hpp"
 #include "estimator/legs/feet_odometry.hpp"
 #include "estimator/legs/leg_states.hpp"
@@ -114,7 +114,7 @@ class EskfEstimator : public Estimator, public MotionSource {
   std::optional<LegOdometrySample> last_leg_;  ///< its stamp advances while packets are repeated
   FeetOdometry feet_;
   StrideMeans stride_means_;
-  LegVelocity velocity_;                  ///< reported last
+  LegVelocity velocity_;  ///< reported last
   VelocityNoise velocity_noise_;
   MotionVariance taken_by_legs_;          ///< from the covariance since the last scan
   double leg_innovation_ = kNotComputed;  ///< norm of the last one [m/s]

@@ -108,8 +108,8 @@ struct IteratedUpdate {
 /// The iterated update: up to `max_iterations` steps, more while they are large, the first
 /// linearized at `start`, each other at the result of the last. `linearize(state)` returns the
 /// measurement there (std::optional<Linearization>), empty to refuse it: then the prior stays.
-/// `step_of(before, after)` returns the Step between two states, and `fuse_at(prior, state, at)` the
-/// belief after one step with that Linearization.
+/// `step_of(before, after)` returns the Step between two states, and `fuse_at(prior, state, at)`
+/// the belief after one step with that Linearization.
 template <class Linearize, class StepOf, class FuseAt>
 IteratedUpdate iterated_update(const Belief& prior, const NominalState& start, int max_iterations,
                                Linearize&& linearize, StepOf&& step_of, FuseAt&& fuse_at) {

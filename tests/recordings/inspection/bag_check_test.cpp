@@ -60,9 +60,8 @@ Fulfilment worst(const BagInfo& bag, const std::string& system) {
   return worst;
 }
 
-const std::vector<std::string> kSystems = {"aims_d",  "aims",      "lio",  "FAST-LIO2",
-                                           "LIO-SAM", "LeGO-LOAM", "LINS", "LOAM",
-                                           "Leg-KILO"};
+const std::vector<std::string> kSystems = {"aims_d",    "aims", "lio",  "FAST-LIO2", "LIO-SAM",
+                                           "LeGO-LOAM", "LINS", "LOAM", "Leg-KILO"};
 
 void remove_field(BagInfo& bag, const std::string& name) {
   std::erase_if(bag.clouds[0].fields, [&name](const auto& each) { return each.name == name; });
@@ -173,7 +172,8 @@ TEST(BagCheck, ConfiguredExtrinsicsReplaceThoseOfTf) {
 
 TEST(BagCheck, ARefusalIsSaidInItsOwnWords) {
   BagInfo bag = good_bag();
-  bag.refusal = "b.bag: several topics are sensor_msgs/Imu: /a, /b; choose one with recording.topics.imu";
+  bag.refusal =
+      "b.bag: several topics are sensor_msgs/Imu: /a, /b; choose one with recording.topics.imu";
   const std::string text = check_text(check_bag(bag));
   EXPECT_NE(text.find("aims: MISSING: readable by aims: " + *bag.refusal + "\n"), std::string::npos)
       << text;
