@@ -34,7 +34,7 @@ Json control_points_json(const Scores& scores) {
   return {{"points", scores.control_points->points},
           {"reached", scores.control_points->reached},
           {"score", scores.control_points->score},
-          {"score_2023", scores.control_points->score_2023}};
+          {"score2023", scores.control_points->score_2023}};
 }
 
 Json ape_json(const Scores& scores) {

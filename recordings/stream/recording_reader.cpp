@@ -220,7 +220,7 @@ void RecordingReader::Impl::take(const Channel& channel, const MessageView& view
 
 /// Whether the message has no stamp though others of its topic have: before a clock was set.
 bool RecordingReader::Impl::is_unset(const Channel& channel, const MessageView& view) const {
-  if (plan.start < kSetRecordTime || view.time("header.stamp").value_or(1) != 0) return false;
+  if (summary.end < kSetRecordTime || view.time("header.stamp").value_or(1) != 0) return false;
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     if (channel.serves[i] && !plan.stamped_by_record[i] && plan.latency[i]) return true;
   }

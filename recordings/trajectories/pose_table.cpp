@@ -164,7 +164,7 @@ class TableReader {
     line = without_comment(line);
     const char separator = layout_ ? layout_->separator : separator_of(line);
     const auto cells = cells_of(line, separator);
-    const bool names = cells.size() >= kPositionColumns && !parse_number(cells[0], false);
+    const bool names = cells.size() >= kPositionColumns && !is_number_with_comma(cells[0]);
     if (is_comment(line) || (!layout_ && names)) {
       if (!named_ && cells.size() >= kPositionColumns) named_ = named_columns(cells);
       return std::string("\n");
