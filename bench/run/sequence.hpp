@@ -8,6 +8,7 @@
 #include "bench/run/run_localizability.hpp"
 #include "bench/run/sequence_file.hpp"
 #include "bench/scenario/scenario.hpp"
+#include "bench/scenario/sequence_record.hpp"
 #include "core/error.hpp"
 #include "core/trajectory.hpp"
 

@@ -39,7 +39,8 @@ double span_of(const Trajectory& trajectory) {
 /// Root mean square distance of the true positions from their mean [m].
 double spread_of(std::span<const PosePair> pairs) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const PosePair& each : pairs) mean += each.truth.translation / double(pairs.size());
+  for (const PosePair& each : pairs)
+    mean += each.truth.translation / static_cast<double>(pairs.size());
   double sum = 0.0;
   for (const PosePair& each : pairs) sum += (each.truth.translation - mean).squaredNorm();
   return std::sqrt(sum / static_cast<double>(pairs.size()));
@@ -50,7 +51,7 @@ std::vector<PosePair> compared(std::span<const PosePair> pairs, const ScoreConfi
   const bool is_level = config.anchor == AlignmentKind::kStartHeading;
   const Alignment alignment = is_level ? align_yaw(pairs) : align_se3(pairs);
   if (!is_level && alignment.spread != PositionSpread::kFull) return {};
-  return aligned(pairs, alignment);
+  return aligned(std::vector<PosePair>(pairs.begin(), pairs.end()), alignment);
 }
 
 /// The rotation of the body frame with the least median distance to all of them: a medoid of some.
