@@ -222,9 +222,6 @@ TEST_F(ScoringInputs, StampsOfAnotherUnitAreNamedAndRead) {
   request.stamp_unit = "ms";
   EXPECT_LT(*score_trajectories(*read_scoring_input(request))->estimates[0].scores.ate_m, 1e-12);
   request.estimates = {file("us.tum", text_in(1e-6, 1.7e9))};
-  request.stamp_unit = "s";
-  EXPECT_NE(message_of(request).find("likely in us: --stamp-unit us"), std::string::npos)
-      << message_of(request);
   request.stamp_unit = "us";
   request.time_offset_s = -1.7e9;
   EXPECT_LT(*score_trajectories(*read_scoring_input(request))->estimates[0].scores.ate_m, 1e-12);
