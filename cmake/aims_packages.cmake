@@ -43,7 +43,7 @@ with headers; CMake finds them by find_package(aims CONFIG).")
 # What aimsConfig.cmake finds.
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libboost-dev, libbz2-dev, libeigen3-dev, libexpected-dev, \
 libfmt-dev, liblz4-dev, libyaml-cpp-dev, libzstd-dev, \
-pkg-config")
+pkg-config, zlib1g-dev")
 
 set(CPACK_DEBIAN_LIVE_PACKAGE_NAME aims-live)
 set(CPACK_DEBIAN_LIVE_PACKAGE_SECTION science)

@@ -10,8 +10,7 @@
 namespace aims {
 
 /// Unpacks a stream of zlib or gzip (RFC 1950, 1952) or bare deflate (RFC 1951) to at most `limit`
-/// bytes. Checksums are not verified. Error for bytes that are no such stream, that end early, or
-/// that unpack to more.
+/// bytes. Error for bytes that are no such stream, are damaged, end early, or unpack to more.
 Result<std::vector<std::byte>> inflate(std::span<const std::byte> packed, std::size_t limit);
 
 }  // namespace aims

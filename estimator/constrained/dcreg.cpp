@@ -7,20 +7,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimator/degeneracy/cross_validation.hpp"
+
 namespace aims {
 namespace {
 
 /// Of the pose, where H is singular: far below what one return adds [1/rad^2, 1/m^2].
 constexpr double kLeastEigenvalue = 1e-9;
-
-/// `hessian`'s block with the other block unknown.
-Eigen::Matrix3d schur_complement(const Matrix6& hessian, ErrorState::Block of,
-                                 ErrorState::Block unknown) {
-  const Eigen::Matrix3d own = block(hessian, of, of);
-  const Eigen::Matrix3d across = block(hessian, of, unknown);
-  const Eigen::Matrix3d other = block(hessian, unknown, unknown);
-  return own - across * other.ldlt().solve(across.transpose());
-}
 
 }  // namespace
 
@@ -51,8 +44,8 @@ std::array<SchurDirection, 6> schur_directions(const Matrix6& hessian, const DcR
   for (int b = 0; b < 2; ++b) {
     const E::Block of = b == 0 ? E::kRotation : E::kPosition;
     const E::Block other = b == 0 ? E::kPosition : E::kRotation;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
-        schur_complement(hessian, of, other));
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(schur_complement(
+        block(hessian, of, of), block(hessian, of, other), block(hessian, other, other)));
     const double largest = std::max(solver.eigenvalues()(2), kLeastEigenvalue);
     for (int i = 0; i < 3; ++i) {
       SchurDirection& it = directions[static_cast<std::size_t>(3 * b + i)];

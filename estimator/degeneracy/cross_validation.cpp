@@ -67,12 +67,13 @@ void CrossValidatedInformation::add(const HalvesInformation& scan, const Eigen::
   const double added = (1.0 - kept) * (1.0 - std::exp(-distance_ / kStartDistance));
   weight_ = kept * weight_ + added;
   const double gain = first ? 1.0 : added / weight_;
+  const Eigen::Matrix3d within = position_information(scan.within);
   const Eigen::Matrix3d across = position_information(scan.across);
   const double weights = scan.within.bottomRightCorner<3, 3>().trace();
-  within_ += gain * (position_information(scan.within) - within_);
+  within_ += gain * (within - within_);
   across_ += gain * (across - across_);
   sum_of_weights_ += gain * (weights - sum_of_weights_);
-  limit_averages(position_information(scan.within));
+  limit_averages(within);
   const double square = weakest_axis_.dot(across * weakest_axis_) / (weights + kRegularization);
   const double tilt = tilt_of_noise(square, gain);
   update_fraction(shared_tilt.value_or(tilt));

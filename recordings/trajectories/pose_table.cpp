@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -86,22 +87,11 @@ int decimals_of(StampUnit unit) {
   }
 }
 
-/// The stamp in seconds, its digits moved rather than divided.
-std::string seconds_of(std::string_view stamp, StampUnit unit) {
-  const auto decimals = static_cast<std::size_t>(decimals_of(unit));
-  const std::string_view whole = stamp.substr(0, stamp.find('.'));
-  if (decimals == 0 || !is_digits(whole)) return std::string(stamp);
-  const std::string part =
-      whole.size() == stamp.size() ? std::string() : std::string(stamp.substr(whole.size() + 1));
-  const std::string digits = std::string(decimals, '0') + std::string(whole);
-  const std::size_t point = digits.size() - decimals;
-  return fmt::format("{}.{}{}", digits.substr(0, point), digits.substr(point), part);
-}
-
 /// How the rows of a table are read.
 struct RowLayout {
   char separator = ',';
   PoseColumns columns;
+  int decimals = 0;  ///< by which the unit of the stamps lies below seconds
 
   /// A number as the TUM format has it: decimal commas become points, an empty cell NaN.
   std::string number(std::string_view cell) const {
@@ -119,7 +109,7 @@ struct RowLayout {
       const std::string_view part = cells[*columns.nanoseconds];
       if (is_digits(part) && part.size() <= 9) stamp += fmt::format(".{:0>9}", part);
     } else {
-      stamp = seconds_of(stamp, columns.unit);
+      stamp = stamp_in_seconds(stamp, decimals);
     }
     std::string text = std::move(stamp);
     for (const std::size_t each : columns.position) text += ' ' + number(cells[each]);
@@ -155,8 +145,8 @@ bool is_comment(std::string_view line) {
 /// Reads a table line by line.
 class TableReader {
  public:
-  TableReader(const std::string& name, std::vector<std::string>& notes)
-      : name_(name), notes_(notes) {}
+  TableReader(const std::string& name, int decimals, std::vector<std::string>& notes)
+      : name_(name), decimals_(decimals), notes_(notes) {}
 
   /// The row of a line, a line end where it has none.
   Result<std::string> read(std::string_view line) {
@@ -179,7 +169,7 @@ class TableReader {
 
  private:
   void begin(const std::vector<std::string_view>& cells, char separator) {
-    layout_ = RowLayout{separator, {}};
+    layout_ = RowLayout{separator, {}, 0};
     const auto unit = unit_by_digits(cells[0]);
     layout_->columns =
         named_ ? *named_ : ordered_columns(cells.size(), unit == StampUnit::kNanoseconds);
@@ -192,6 +182,8 @@ class TableReader {
                                      columns.unit == StampUnit::kMicroseconds ? "µs" : "ms"));
       }
     }
+    const bool seconds = decimals_of(columns.unit) == 0 && !columns.nanoseconds;
+    layout_->decimals = seconds ? decimals_ : decimals_of(columns.unit);
     const std::size_t read = kPositionColumns + (columns.nanoseconds ? 1 : 0);
     if (!columns.quaternion_xyzw && cells.size() > read) {
       notes_.push_back(fmt::format("{}: {} {} of {} columns are read: stamp and position", name_,
@@ -213,6 +205,7 @@ class TableReader {
   }
 
   const std::string& name_;
+  int decimals_;  ///< of stamps of no other unit
   std::vector<std::string>& notes_;
   std::optional<PoseColumns> named_;
   std::optional<RowLayout> layout_;
@@ -236,11 +229,28 @@ bool is_pose_table(std::string_view text) {
   return count != 12 && unit_by_digits(words[0]) != StampUnit::kSeconds;
 }
 
-Result<std::string> tum_of_pose_table(std::string_view text, const std::string& name,
+std::string stamp_in_seconds(std::string_view stamp, int decimals) {
+  if (decimals == 0) return std::string(stamp);
+  const bool negative = stamp.starts_with('-');
+  const std::string_view digits = stamp.substr(negative ? 1 : 0);
+  if (digits.find_first_not_of("0123456789.") != std::string_view::npos) {
+    const auto number = parse_number(stamp, false);
+    return number ? fmt::format("{:.9f}", *number * std::pow(10.0, -decimals)) : std::string(stamp);
+  }
+  const std::size_t dot = std::min(digits.find('.'), digits.size());
+  std::string whole(digits.substr(0, dot));
+  const auto moved = static_cast<std::size_t>(decimals);
+  if (whole.size() <= moved) whole.insert(0, moved + 1 - whole.size(), '0');
+  const std::size_t point = whole.size() - moved;
+  return fmt::format("{}{}.{}{}", negative ? "-" : "", whole.substr(0, point), whole.substr(point),
+                     digits.substr(std::min(dot + 1, digits.size())));
+}
+
+Result<std::string> tum_of_pose_table(std::string_view text, const std::string& name, int decimals,
                                       std::vector<std::string>& notes) {
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   std::string out;
-  TableReader reader(name, notes);
+  TableReader reader(name, decimals, notes);
   while (!text.empty()) {
     auto row = reader.read(take_line(text));
     if (!row) return row;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "core/files/atomic_file.hpp"
@@ -82,25 +81,9 @@ Result<Trajectory> parse_positions(std::string_view text, const std::string& nam
   return positions;
 }
 
-/// The stamp with its decimal point moved to the left; one with an exponent is divided.
-std::string moved_point(std::string_view stamp, int decimals) {
-  const bool negative = stamp.starts_with('-');
-  const std::string_view digits = stamp.substr(negative ? 1 : 0);
-  if (digits.find_first_not_of("0123456789.") != std::string_view::npos) {
-    const auto number = parse_number(stamp, false);
-    return number ? fmt::format("{:.9f}", *number * std::pow(10.0, -decimals)) : std::string(stamp);
-  }
-  const std::size_t dot = std::min(digits.find('.'), digits.size());
-  std::string whole(digits.substr(0, dot));
-  const auto moved = static_cast<std::size_t>(decimals);
-  if (whole.size() <= moved) whole.insert(0, moved + 1 - whole.size(), '0');
-  const std::size_t point = whole.size() - moved;
-  return fmt::format("{}{}.{}{}", negative ? "-" : "", whole.substr(0, point), whole.substr(point),
-                     digits.substr(std::min(dot + 1, digits.size())));
-}
-
 /// The lines with their stamps in seconds; comments as they are.
 std::string in_seconds(std::string_view text, int decimals) {
+  if (decimals == 0) return std::string(text);
   std::string result;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
@@ -111,20 +94,12 @@ std::string in_seconds(std::string_view text, int decimals) {
       result += line;
     } else {
       const auto after = static_cast<std::size_t>(words[0].data() - line.data()) + words[0].size();
-      result += moved_point(words[0], decimals);
+      result += stamp_in_seconds(words[0], decimals);
       result += line.substr(after);
     }
     result += '\n';
   }
   return result;
-}
-
-/// Whether the stamps of these lines, made of `text`, are its own: a table's may be converted.
-bool are_as_written(std::string_view lines_text, std::string_view text) {
-  LineReader lines(lines_text, "");
-  const auto first = lines.next();
-  const auto words = first ? words_of(*first) : std::vector<std::string_view>();
-  return !words.empty() && text.find(words[0]) != std::string_view::npos;
 }
 
 Result<TrajectoryFile> read_text(const fs::path& file, const TrajectoryFileOptions& options) {
@@ -137,12 +112,10 @@ Result<TrajectoryFile> read_text(const fs::path& file, const TrajectoryFileOptio
   TrajectoryFile result;
   result.file = file;
   const bool table = is_pose_table(*text);
-  auto lines_text =
-      table ? tum_of_pose_table(*text, name, result.notes) : Result<std::string>(*text);
+  const auto lines_text = table
+                              ? tum_of_pose_table(*text, name, options.stamp_decimals, result.notes)
+                              : Result<std::string>(in_seconds(*text, options.stamp_decimals));
   if (!lines_text) return tl::unexpected(lines_text.error());
-  if (options.stamp_decimals > 0 && are_as_written(*lines_text, *text)) {
-    *lines_text = in_seconds(*lines_text, options.stamp_decimals);
-  }
   LineReader lines(*lines_text, name);
   const auto first = lines.next();
   if (!first) {

@@ -74,7 +74,7 @@ for name in libc6 libstdc++6 libcairo2 libfmt9 libyaml-cpp0.7 fonts-dejavu-core;
   depends "$program" | grep -xF "$name" >"$work/found" || fail "$program does not depend on $name"
 done
 for name in libeigen3-dev libfmt-dev libexpected-dev libyaml-cpp-dev libboost-dev liblz4-dev \
-  libbz2-dev; do
+  libbz2-dev zlib1g-dev; do
   depends "$libraries" | grep -xF "$name" >"$work/found" || fail "$libraries does not depend on $name"
 done
 for package in "$libraries" "${live[@]}" "${node[@]}" "${python[@]}"; do
