@@ -134,7 +134,7 @@ class Captures(ProgramTest):
 
     def test_a_vlp16_has_no_imu(self):
         recording = self.put("alone.pcap", capture(vlp16_packets(START, 3)))
-        self.refuse("no topic is sensor_msgs/Imu (topics.imu; 'none' to do without); it has "
+        self.refuse("no topic is sensor_msgs/Imu (recording.topics.imu; 'none' to do without); it has "
                     "/lidar/points", "estimate", recording, "--estimators", "lio", "--out",
                     self.path("alone"))
 
