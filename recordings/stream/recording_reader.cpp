@@ -9,7 +9,6 @@
 
 #include "recordings/legs/leg_stream.hpp"
 #include "recordings/source/recording_file.hpp"
-#include "recordings/stream/record_clock.hpp"
 #include "recordings/stream/recording_plan.hpp"
 #include "recordings/stream/repeated_samples.hpp"
 #include "recordings/topics/recording_channels.hpp"
@@ -23,6 +22,8 @@ constexpr std::size_t kMaxDeliveries = 100'000;
 constexpr std::size_t kMaxBytes = std::size_t{256} << 20;
 /// A message that is recorded so much earlier than usual after its stamp is recorded by a wrong
 /// clock.
+/// Of a stamp 0 from the time at which its message was recorded, by the clock of the sensor.
+constexpr Duration kMaxUnset = kSecond;
 constexpr Duration kMaxHold = 60 * kSecond;  ///< of a message with a record time
 constexpr std::size_t kMaxHeldBytes = std::size_t{256} << 20;
 
@@ -50,7 +51,7 @@ struct RecordingReader::Impl {
 
   Result<void> fetch();
   bool hold(const BagMessage& message, const Channel& channel, const MessageView& view);
-  bool is_unset(const Channel& channel, const MessageView& view) const;
+  bool is_unset(const BagMessage& message, const Channel& channel, const MessageView& view) const;
   Time due(const BagMessage& message, const Channel& channel, const MessageView& view);
   void release(Time due, std::vector<Delivery>& out);
   void receive(const BagMessage& message, std::vector<Delivery>& out);
@@ -218,11 +219,14 @@ void RecordingReader::Impl::take(const Channel& channel, const MessageView& view
   if (channel.is(Role::kLegs)) take_legs(channel, view, out);
 }
 
-/// Whether the message has no stamp though others of its topic have: before a clock was set.
-bool RecordingReader::Impl::is_unset(const Channel& channel, const MessageView& view) const {
-  if (summary.end < kSetRecordTime || view.time("header.stamp").value_or(1) != 0) return false;
+/// Whether the message has the stamp 0 though it was recorded at another time of its topic's clock:
+/// before that clock was set.
+bool RecordingReader::Impl::is_unset(const BagMessage& message, const Channel& channel,
+                                     const MessageView& view) const {
+  if (view.time("header.stamp").value_or(1) != 0) return false;
   for (std::size_t i = 0; i < kRoleCount; ++i) {
-    if (channel.serves[i] && !plan.stamped_by_record[i] && plan.latency[i]) return true;
+    if (!channel.serves[i] || plan.stamped_by_record[i] || !plan.latency[i]) continue;
+    if (std::abs(message.record_time - *plan.latency[i]) > kMaxUnset) return true;
   }
   return false;
 }
@@ -280,7 +284,7 @@ void RecordingReader::Impl::receive(const BagMessage& message, std::vector<Deliv
     }
     return;
   }
-  if (is_unset(*channel, *view)) {
+  if (is_unset(message, *channel, *view)) {
     ++counts["stamp_not_set"];
     return;
   }

@@ -177,6 +177,28 @@ TEST_F(RecordingReaderTest, SingleStampsOfZeroAreLeftOut) {
   EXPECT_EQ(read.counts, (std::map<std::string, int>{{"stamp_not_set", 5}}));
 }
 
+TEST_F(RecordingReaderTest, AClockThatStartsAtZeroHasThatStamp) {
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  for (int k = 0; k < 100; ++k) {
+    ImuSample sample;
+    sample.stamp = k * 20 * kMillisecond;
+    sample.specific_force.z() = 9.81;
+    robot.add("/imu", imu_type(), kEpochStart + sample.stamp,
+              imu_message({0, sample.stamp, "imu"}, sample));
+  }
+  for (int k = 0; k < 20; ++k) {
+    const Time fired = k * 100 * kMillisecond;
+    robot.add_cloud(RawCloud::of(fired, {{1, 2, 0, 0}, {2, 1, 1, 0.08F}}),
+                    kEpochStart + fired + 100 * kMillisecond);
+  }
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  ASSERT_EQ(read.error, "");
+  EXPECT_TRUE(read.counts.empty()) << read.counts.begin()->first;
+  EXPECT_EQ(test::scans_of(read.deliveries).size(), 20U);
+}
+
 TEST_F(RecordingReaderTest, ALidarClockSinceBootIsAWarningWithTheDelayThatCorrectsIt) {
   RobotRecording robot(bag());
   robot.add_transforms(kMounted);
