@@ -75,7 +75,7 @@ constexpr const char* kFooter =
     "Exit codes: 0 success; 1 an expectation of a scenario failed, or jobs failed or are\n"
     "missing; 2 wrong usage, configuration or input; 3 internal error; 4 a run is invalid,\n"
     "e.g. the robot fell, and no expectation demands it; 130 interrupted (Ctrl-C), 143\n"
-    "terminated (SIGTERM).";
+    "terminated (SIGTERM), 129 after a lost terminal (SIGHUP).";
 
 }  // namespace
 

@@ -56,11 +56,13 @@ std::string bar(double fraction) {
 void watch_interrupt() {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
+  // A lost ssh connection; under nohup it stays ignored.
+  if (std::signal(SIGHUP, on_interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
 }
 
 bool interrupted() { return noted != 0; }
 
-int interrupted_code() { return noted == SIGTERM ? kTerminated : kInterrupted; }
+int interrupted_code() { return noted == 0 ? kInterrupted : 128 + noted; }
 
 ProgressDisplay::ProgressDisplay(std::string label, bool quiet, std::string done)
     : label_(std::move(label)), done_(std::move(done)), quiet_(quiet), terminal_(is_terminal()) {}

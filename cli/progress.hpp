@@ -12,13 +12,13 @@
 
 namespace aims {
 
-/// From now on Ctrl-C and SIGTERM are noted; a second Ctrl-C ends the program at once.
+/// From now on Ctrl-C, SIGTERM and SIGHUP are noted; a second Ctrl-C ends the program at once.
 void watch_interrupt();
 
-/// True after Ctrl-C or SIGTERM.
+/// True after one of them.
 bool interrupted();
 
-/// The exit code after it: `kInterrupted` or `kTerminated`.
+/// The exit code after it, as shells have it: 128 + the number of the signal.
 int interrupted_code();
 
 /// Shows the progress of one sequence on standard error: a bar on a terminal, plain lines

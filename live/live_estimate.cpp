@@ -82,6 +82,7 @@ Result<void> LiveEstimate::take_rows() {
   const auto new_poses = std::span(result.trajectory).subspan(taken_poses_);
   const auto new_health = std::span(result.health).subspan(taken_health_);
   if (new_poses.empty() && new_health.empty()) return {};
+  if (!new_poses.empty()) warn_of_motion();
   std::vector<StampedPose> poses(new_poses.begin(), new_poses.end());
   for (StampedPose& pose : poses) {
     if (moved_) pose.pose = start_.T_odom_start * pose.pose;
@@ -101,6 +102,16 @@ Result<void> LiveEstimate::take_rows() {
   taken_poses_ = result.trajectory.size();
   taken_health_ = result.health.size();
   return {};
+}
+
+/// Where it was told to calibrate and the robot did not stand.
+void LiveEstimate::warn_of_motion() {
+  if (!std::exchange(start_.standing, false)) return;
+  if (!estimator_.result().counts.contains("initialization.moving")) return;
+  start_.warnings.push_back({"calibrated in motion",
+                             "calibrate: the robot did not stand: tilt and gyro bias are uncertain; "
+                             "let it stand for two seconds and calibrate again"});
+  print_line("warning: " + start_.warnings.back().text);
 }
 
 /// Adds what the reading knows to the reasons; publishes.
@@ -136,6 +147,7 @@ void LiveEstimate::tell_silence(double seconds) {
   HealthRow row{last_ ? last_->stamp : 0, HealthState::kInvalid, {"no messages"}, NAN};
   row.stamp += from_seconds(seconds);
   publish(row);
+  if (auto ok = log_.add({}, std::span(&row, 1)); !ok) print_line("warning: " + ok.error().message);
 }
 
 std::vector<Eigen::Vector3f> LiveEstimate::placed(std::vector<Eigen::Vector3f> points) const {

@@ -23,6 +23,7 @@ struct LiveStart {
   Pose T_odom_start;                     ///< its start in the frame of what is published
   const ClockWatch* clocks = nullptr;    ///< of its topics
   std::vector<ReadingWarning> warnings;  ///< their reasons are in its health
+  bool standing = false;                 ///< the robot was told to stand: motion is a warning
 };
 
 /// One estimator on live topics, from its start to its end: it publishes, prints and logs.
@@ -38,7 +39,7 @@ class LiveEstimate {
   /// Writes the map to the log and prints where.
   void save_map();
 
-  /// Publishes that no message has come for so long [s]; prints when that begins.
+  /// Publishes and logs that no message has come for so long [s]; prints when that begins.
   void tell_silence(double seconds);
 
   /// The last pose, as published; none: nothing.
@@ -50,6 +51,7 @@ class LiveEstimate {
  private:
   Result<void> take(const Delivery& delivery);
   Result<void> take_rows();
+  void warn_of_motion();
   void publish_health(std::vector<HealthRow>& rows);
   void publish(const HealthRow& row);
   void publish_points(Time stamp);

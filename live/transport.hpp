@@ -21,7 +21,7 @@ class Transport {
   /// Whether its messages are CDR, as in ROS 2.
   virtual bool cdr() const = 0;
 
-  /// False once the node was asked to end: Ctrl-C, SIGTERM, or by the network.
+  /// False once the node was asked to end: Ctrl-C, SIGTERM, SIGHUP, or by the network.
   virtual bool running() const = 0;
 
   /// Types of the topics that other nodes publish, by topic.

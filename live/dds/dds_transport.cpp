@@ -250,6 +250,8 @@ Result<std::unique_ptr<DdsTransport>> DdsTransport::connect(const DdsOptions& op
   impl->discovery = std::move(*discovery);
   signal(SIGINT, request_end);
   signal(SIGTERM, request_end);
+  // A lost ssh connection; under nohup it stays ignored.
+  if (signal(SIGHUP, request_end) == SIG_IGN) signal(SIGHUP, SIG_IGN);
   return std::unique_ptr<DdsTransport>(new DdsTransport(std::move(impl)));
 }
 

@@ -95,6 +95,8 @@ std::unique_ptr<Ros1Transport> Ros1Transport::connect(int argc, char** argv,
   }
   auto impl = std::make_unique<Impl>();
   signal(SIGTERM, request_end);
+  // A lost ssh connection; under nohup it stays ignored.
+  if (signal(SIGHUP, request_end) == SIG_IGN) signal(SIGHUP, SIG_IGN);
   return std::unique_ptr<Ros1Transport>(new Ros1Transport(std::move(impl)));
 }
 

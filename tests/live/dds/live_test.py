@@ -95,15 +95,15 @@ class Live:
     def tell(self, command):
         run(AIMS, "live", "--domain", self.domain, "--tell", command)
 
-    def finish(self):
-        """Waits for the player, then for the last pose; ends the estimate. Its exit code."""
+    def finish(self, ending=signal.SIGTERM):
+        """Waits for the player, then for the last pose; ends the estimate by that signal. Its exit code."""
         try:
             self.said = self.play.communicate(timeout=40)[0]
             size, end = -1, time.monotonic() + LAST_WAIT_S
             while self.live.poll() is None and size < self.written() and time.monotonic() < end:
                 size = self.written()
                 time.sleep(1.0)
-            self.live.send_signal(signal.SIGTERM)
+            self.live.send_signal(ending)
             return self.live.wait(30)
         finally:
             self.kill()
@@ -167,7 +167,11 @@ class LiveEstimate(unittest.TestCase):
         live = self.assert_same(Live("walk.mcap", "source", ["--source_time", *PATIENT], ["--rate", "2"]))
         self.assertEqual(live.poses(), self.offline)
         # By time of arrival, its rows are stamped by the shift of clocks, of which the record shows more.
-        self.assert_same_file(live, "aims_d.health.csv")
+        ours, theirs = (content(os.path.join(folder, "aims_d.health.csv")).splitlines(keepends=True)
+                        for folder in (live.name, live.name + "-again"))
+        heard = [row for row in ours if b"no messages" not in row]
+        self.assertEqual(heard, theirs)
+        self.assertGreater(len(ours), len(heard), "the silence after the last message")
 
     def test_with_a_calibration_live_poses_are_those_of_the_recording_with_it(self):
         run(AIMS, "calibrate", "walk.mcap", "--topics", "lidar=/lidar/points", "--out", "robot.yaml", "--overwrite",
@@ -229,8 +233,11 @@ class LiveEstimate(unittest.TestCase):
         live.wait_for("calibrated estimate", lambda: live.written("part-2"))
         live.wait_for("poses", lambda: len(places(live.poses("part-2"))) > 3)
         live.tell("reset")
-        self.assertEqual(live.finish(), 0, live.log())
+        self.assertEqual(live.finish(signal.SIGHUP), 0, live.log())
+        self.assertTrue(summary("commands/part-3")["complete"], "a lost terminal is an orderly end")
         self.assertIn("starting anew at the last pose: calibration, standing", live.log())
+        self.assertIn("warning: calibrate: the robot did not stand", live.log())
+        self.assertIn(b"calibrated in motion", content("commands/part-2/aims_d.health.csv"))
         self.assertIn("starting anew: reset", live.log())
         first, second = places(live.poses()), places(live.poses("part-2"))
         self.assertLess(distance(first[-1], second[0]), 0.15, "it walks meanwhile")
