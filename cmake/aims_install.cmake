@@ -53,11 +53,4 @@ if(TARGET aims_python_core AND NOT SKBUILD)
   aims_install_with(aims_python_sim python_sim ${CMAKE_INSTALL_DATADIR}/doc/python3-aims-sim
     FILES ${PROJECT_SOURCE_DIR}/LICENSE RENAME copyright)
 endif()
-if(TARGET aims_live)
-  aims_install_with(aims_live live ${CMAKE_INSTALL_DATADIR}/doc/aims-live
-    FILES ${PROJECT_SOURCE_DIR}/LICENSE RENAME copyright)
-endif()
-if(TARGET aims_node)
-  aims_install_with(aims_node ros ${CMAKE_INSTALL_DATADIR}/doc/aims-node
-    FILES ${PROJECT_SOURCE_DIR}/LICENSE RENAME copyright)
-endif()
+include(cmake/aims_install_live.cmake)

@@ -104,13 +104,13 @@ Result<void> LiveEstimate::take_rows() {
   return {};
 }
 
-/// Where it was told to calibrate and the robot did not stand.
+/// Where it starts anew and the robot does not stand.
 void LiveEstimate::warn_of_motion() {
   if (!std::exchange(start_.standing, false)) return;
   if (!estimator_.result().counts.contains("initialization.moving")) return;
-  start_.warnings.push_back({"calibrated in motion",
-                             "calibrate: the robot did not stand: tilt and gyro bias are uncertain; "
-                             "let it stand for two seconds and calibrate again"});
+  start_.warnings.push_back({"started anew in motion",
+                             "started anew in motion: tilt and gyro bias are uncertain; let the "
+                             "robot stand and send calibrate"});
   print_line("warning: " + start_.warnings.back().text);
 }
 
@@ -130,13 +130,18 @@ void LiveEstimate::publish_health(std::vector<HealthRow>& rows) {
 /// Prints too, where the state or its reasons change.
 void LiveEstimate::publish(const HealthRow& row) {
   const auto [scans, samples] = timing_.rates();
-  publications_.health(row, {{"messages dropped", fmt::format("{}", transport_.dropped())},
-                             {"messages lost", fmt::format("{}", transport_.lost())},
-                             {"last warning of the network", warning_},
-                             {"scans per second", fmt::format("{:.1f}", scans)},
-                             {"IMU samples per second", fmt::format("{:.0f}", samples)},
-                             {"latency median [ms]", fmt::format("{}", timing_.quantile(0.5))},
-                             {"latency 99 % [ms]", fmt::format("{}", timing_.quantile(0.99))}});
+  std::vector<std::pair<std::string, std::string>> figures = {
+      {"messages dropped", fmt::format("{}", transport_.dropped())},
+      {"messages lost", fmt::format("{}", transport_.lost())},
+      {"last warning of the network", warning_},
+      {"scans per second", fmt::format("{:.1f}", scans)},
+      {"IMU samples per second", fmt::format("{:.0f}", samples)},
+      {"latency median [ms]", fmt::format("{}", timing_.quantile(0.5))},
+      {"latency 99 % [ms]", fmt::format("{}", timing_.quantile(0.99))}};
+  // What the reader left out and why: the cause of "no LiDAR scans".
+  for (const auto& [what, count] : reader_.counts())
+    figures.emplace_back(what, fmt::format("{}", count));
+  publications_.health(row, std::move(figures));
   if (printed_ && row.state == printed_->state && row.reasons == printed_->reasons) return;
   print_line(fmt::format("health at {:.1f} s: {}{}{}", to_seconds(row.stamp), name_of(row.state),
                          row.reasons.empty() ? "" : ": ", fmt::join(row.reasons, "; ")));

@@ -23,7 +23,7 @@ struct LiveStart {
   Pose T_odom_start;                     ///< its start in the frame of what is published
   const ClockWatch* clocks = nullptr;    ///< of its topics
   std::vector<ReadingWarning> warnings;  ///< their reasons are in its health
-  bool standing = false;                 ///< the robot was told to stand: motion is a warning
+  bool standing = false;                 ///< the robot should stand: motion is a warning
 };
 
 /// One estimator on live topics, from its start to its end: it publishes, prints and logs.

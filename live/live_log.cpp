@@ -35,7 +35,8 @@ Result<LiveLog> LiveLog::create(const std::filesystem::path& folder, const std::
   log.name_ = name;
   const auto open = [&](std::ofstream& file, const std::string& ending) -> Result<void> {
     const auto path = folder / (name + ending);
-    if (std::filesystem::exists(path)) {
+    std::error_code none;
+    if (std::filesystem::file_size(path, none) > 0 && !none) {
       return failure(fmt::format("{} exists: expected a folder without it", path.string()));
     }
     file.open(path);

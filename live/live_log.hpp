@@ -22,7 +22,8 @@ namespace aims {
 /// now and then: after a crash or a power failure, what is there can be used.
 class LiveLog {
  public:
-  /// No folder: nothing is written. Error when it cannot be made or has such files.
+  /// No folder: nothing is written. Error when it cannot be made or has such files
+  /// with content: a run without any message leaves empty ones.
   static Result<LiveLog> create(const std::filesystem::path& folder, const std::string& name);
 
   /// Appends the rows. Error when the disk is full.

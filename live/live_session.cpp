@@ -115,7 +115,7 @@ class Session {
     print_line(
         fmt::format("{} publishes {}", options_.estimator, transport_.resolved("~odometry")));
     LiveEstimate running(transport_, publications_, *reader, **estimator, std::move(*log),
-                         {T_odom_start_, &clocks, warnings, calibrating_});
+                         {T_odom_start_, &clocks, warnings, part > 1});
     commands_.on_save_map([&] { running.save_map(); });
     commands_.on_silence([&](double seconds) { running.tell_silence(seconds); });
     const auto done = running.run();
@@ -135,7 +135,6 @@ class Session {
   /// Says why, and decides where the next estimate starts.
   void start_anew(std::optional<LiveRequest> request, const std::string& broken) {
     const bool origin = request == LiveRequest::kReset;
-    calibrating_ = request == LiveRequest::kCalibrate;
     T_odom_start_ = origin ? Pose() : level(last_.pose);
     const std::string why = origin ? "reset" : request ? "calibration, standing" : broken;
     print_line(fmt::format("starting anew{}: {}", origin ? "" : " at the last pose", why));
@@ -148,7 +147,6 @@ class Session {
   Commands commands_;
   Publications publications_;
   Pose T_odom_start_;
-  bool calibrating_ = false;  ///< the estimate was started by that command
   StampedPose last_;
 };
 

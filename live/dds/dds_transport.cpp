@@ -217,14 +217,20 @@ void DdsTransport::Impl::reopen_refused() {
   }
 }
 
-/// Now and then reports topics of which two publishers send; of transforms there may be several.
+/// Now and then reports topics of another type, or of which two publishers send; of transforms
+/// there may be several.
 void DdsTransport::Impl::watch_publishers() {
   const auto now = std::chrono::steady_clock::now();
   if (now - watched < kWatchPeriod) return;
   watched = now;
   discovery.update();
   for (const auto& [topic, subscription] : subscriptions) {
-    if (subscription->connection->type == "tf2_msgs/TFMessage") continue;
+    const std::string& type = subscription->connection->type;
+    if (const std::string other = discovery.other_type(topic, type); !other.empty()) {
+      tell(fmt::format("a publisher of {} sends {}: expected {}, it is not heard", topic, other,
+                       type));
+    }
+    if (type == "tf2_msgs/TFMessage") continue;
     const std::size_t count = discovery.publishers(topic);
     if (count > 1) tell(fmt::format("{} has {} publishers: expected one", topic, count));
   }

@@ -79,6 +79,13 @@ std::map<std::string, std::string> Discovery::topics() const {
   return types;
 }
 
+std::string Discovery::other_type(const std::string& topic, const std::string& type) const {
+  for (const auto& [instance, offer] : offers_) {
+    if (offer.topic == topic && offer.type != type) return offer.type;
+  }
+  return "";
+}
+
 std::size_t Discovery::publishers(const std::string& topic) const {
   return static_cast<std::size_t>(std::ranges::count_if(
       offers_, [&](const auto& offer) { return offer.second.topic == topic; }));

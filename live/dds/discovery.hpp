@@ -32,6 +32,9 @@ class Discovery {
   /// Types by topic.
   std::map<std::string, std::string> topics() const;
 
+  /// A type under which the topic is published, other than that; empty: there is none.
+  std::string other_type(const std::string& topic, const std::string& type) const;
+
   /// How many publish the topic.
   std::size_t publishers(const std::string& topic) const;
 

@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t kMinLoads = 100;
 constexpr double kMinFraction = 0.05;    ///< of the loads in each class [-]
 constexpr double kMinSeparation = 3.7;   ///< distance of the means over the spread within [-]
+constexpr double kMinRatio = 1.5;        ///< of 1 + mean load of the upper class over the lower [-]
 constexpr double kHalfHysteresis = 0.1;  ///< of the distance of the means [-]
 constexpr std::array<const char*, kLegCount> kFeet = {"FL", "FR", "RL", "RR"};
 
@@ -67,6 +68,12 @@ Result<ContactThreshold> learn_threshold(std::vector<double> logarithms) {
                     "(separation {:.1f}, expected {})",
                     std::expm1(low.mean), 100.0 * fraction, std::expm1(high.mean),
                     distance / spread, kMinSeparation));
+  }
+  if (distance < std::log(kMinRatio)) {
+    return failure(fmt::format(
+        "loads near {:.0f} and {:.0f} are those of a standing foot: a lifted one has less "
+        "than 1/{} of the load",
+        std::expm1(low.mean), std::expm1(high.mean), kMinRatio));
   }
   const double middle = 0.5 * (low.mean + high.mean);
   return ContactThreshold{std::expm1(middle + kHalfHysteresis * distance),

@@ -172,6 +172,23 @@ TEST_F(DdsTransportTest, TwoPublishersOfATopicAreReported) {
   EXPECT_EQ(problems, std::vector<std::string>{"/imu/data has 2 publishers: expected one"});
 }
 
+TEST_F(DdsTransportTest, APublisherOfAnotherTypeIsReported) {
+  sender_->advertise({"/imu/data", "sensor_msgs/Imu", {}, {}, false, true});
+  subscribe("/imu/data", "sensor_msgs/Imu");
+  const auto other = connect();
+  other->advertise({"/imu/data", "std_msgs/String", {}, {}, false, true});
+  std::vector<std::string> problems;
+  ASSERT_TRUE(eventually([&] {
+    receiver_->wait(0.0);
+    const auto more = receiver_->take_problems();
+    problems.insert(problems.end(), more.begin(), more.end());
+    return !problems.empty();
+  }));
+  EXPECT_EQ(
+      problems[0],
+      "a publisher of /imu/data sends std_msgs/String: expected sensor_msgs/Imu, it is not heard");
+}
+
 TEST_F(DdsTransportTest, BestEffortPublishersAreHeard) {
   const BestEffort sensor("/imu/data", "sensor_msgs/Imu");
   subscribe("/imu/data", "sensor_msgs/Imu");

@@ -80,6 +80,17 @@ TEST(ContactThresholds, AreNotLearnedFromOneClass) {
     EXPECT_NE(learned.error().message.find("FL: loads near "), std::string::npos);
     EXPECT_NE(learned.error().message.find("are not two classes"), std::string::npos);
   }
+  // A robot that stands: counts that flicker by one, and weight that shifts.
+  std::vector<double> flickering, shifting;
+  for (int i = 0; i < 600; ++i) {
+    flickering.push_back(100 + i % 2);
+    shifting.push_back(i < 300 ? 40.0 : 55.0);
+  }
+  for (const std::vector<double>& values : {flickering, shifting}) {
+    const auto learned = learn_contact_thresholds(same(values));
+    ASSERT_FALSE(learned);
+    EXPECT_NE(learned.error().message.find("are those of a standing foot"), std::string::npos);
+  }
   EXPECT_EQ(learn_contact_thresholds(same(std::vector<double>(500, 7.0))).error().message,
             "FL: all loads are equal");
   EXPECT_EQ(learn_contact_thresholds(same({1.0, NAN})).error().message,
