@@ -48,23 +48,22 @@ Result<void> LiveEstimate::run() {
     const auto advanced = reader_.advance(kBatch, deliveries);
     if (!advanced) return tl::unexpected(advanced.error());
     more = *advanced;
-    for (const Delivery& delivery : deliveries) {
-      if (auto ok = take(delivery); !ok) return ok;
-    }
+    for (const Delivery& delivery : deliveries) take(delivery);
     deliveries.clear();
     for (const std::string& problem : transport_.take_problems()) {
       print_line("warning: " + problem);
       warning_ = problem;
     }
-    if (auto ok = save_now_and_then(); !ok) return ok;
+    save_now_and_then();
   }
   estimator_.finish();
-  if (auto ok = take_rows(); !ok) return ok;
+  take_rows();
   if (auto ok = log_.save_map(placed(estimator_.map_points())); !ok) return ok;
-  return log_.save_summary(reader_, estimator_.result(), true);
+  if (auto ok = log_.save_summary(reader_, estimator_.result(), true); !ok) return ok;
+  return log_.state();
 }
 
-Result<void> LiveEstimate::take(const Delivery& delivery) {
+void LiveEstimate::take(const Delivery& delivery) {
   // The deliveries of a batch arrived within 5 ms; their own arrivals are on the stamps' clock.
   timing_.arrived(delivery, reader_.summary().start + reader_.position());
   estimator_.consume(delivery);
@@ -74,14 +73,14 @@ Result<void> LiveEstimate::take(const Delivery& delivery) {
       publications_.fast(placed_at(start_.T_odom_start, *motion));
     }
   }
-  return take_rows();
+  take_rows();
 }
 
-Result<void> LiveEstimate::take_rows() {
+void LiveEstimate::take_rows() {
   const EstimatorResult& result = estimator_.result();
   const auto new_poses = std::span(result.trajectory).subspan(taken_poses_);
   const auto new_health = std::span(result.health).subspan(taken_health_);
-  if (new_poses.empty() && new_health.empty()) return {};
+  if (new_poses.empty() && new_health.empty()) return;
   if (!new_poses.empty()) warn_of_motion();
   std::vector<StampedPose> poses(new_poses.begin(), new_poses.end());
   for (StampedPose& pose : poses) {
@@ -96,22 +95,31 @@ Result<void> LiveEstimate::take_rows() {
   std::vector<HealthRow> health(new_health.begin(), new_health.end());
   publish_health(health);
   poses_ += poses.size();
-  if (auto ok = log_.add(poses, health); !ok) return ok;
+  log(poses, health);
   // All rows are taken; the estimator forgets them, so that memory does not grow.
   estimator_.forget_rows();
   taken_poses_ = result.trajectory.size();
   taken_health_ = result.health.size();
-  return {};
+}
+
+void LiveEstimate::log(std::span<const StampedPose> poses, std::span<const HealthRow> health) {
+  const bool written = log_.state().has_value();
+  log_.add(poses, health);
+  if (written && !log_.state()) warn({"the log cannot be written", log_.state().error().message});
+}
+
+void LiveEstimate::warn(const ReadingWarning& warning) {
+  start_.warnings.push_back(warning);
+  print_line("warning: " + warning.text);
 }
 
 /// Where it starts anew and the robot does not stand.
 void LiveEstimate::warn_of_motion() {
   if (!std::exchange(start_.standing, false)) return;
   if (!estimator_.result().counts.contains("initialization.moving")) return;
-  start_.warnings.push_back({"started anew in motion",
-                             "started anew in motion: tilt and gyro bias are uncertain; let the "
-                             "robot stand and send calibrate"});
-  print_line("warning: " + start_.warnings.back().text);
+  warn({"started anew in motion",
+        "started anew in motion: tilt and gyro bias are uncertain; let the "
+        "robot stand and send calibrate"});
 }
 
 /// Adds what the reading knows to the reasons; publishes.
@@ -152,7 +160,7 @@ void LiveEstimate::tell_silence(double seconds) {
   HealthRow row{last_ ? last_->stamp : 0, HealthState::kInvalid, {"no messages"}, NAN};
   row.stamp += from_seconds(seconds);
   publish(row);
-  if (auto ok = log_.add({}, std::span(&row, 1)); !ok) print_line("warning: " + ok.error().message);
+  log({}, std::span(&row, 1));
 }
 
 std::vector<Eigen::Vector3f> LiveEstimate::placed(std::vector<Eigen::Vector3f> points) const {
@@ -173,14 +181,15 @@ void LiveEstimate::publish_points(Time stamp) {
 }
 
 /// What a crash is to leave behind besides the rows.
-Result<void> LiveEstimate::save_now_and_then() {
-  if (log_.folder().empty() || since_summary_.seconds() < kSummaryPeriod) return {};
+void LiveEstimate::save_now_and_then() {
+  if (log_.folder().empty() || !log_.state() || since_summary_.seconds() < kSummaryPeriod) return;
   since_summary_ = Stopwatch();
-  if (since_map_.seconds() > kMapFilePeriod) {
+  Result<void> saved = log_.save_summary(reader_, estimator_.result(), false);
+  if (saved && since_map_.seconds() > kMapFilePeriod) {
     since_map_ = Stopwatch();
-    if (auto ok = log_.save_map(placed(estimator_.map_points())); !ok) return ok;
+    saved = log_.save_map(placed(estimator_.map_points()));
   }
-  return log_.save_summary(reader_, estimator_.result(), false);
+  if (!saved) print_line("warning: " + saved.error().message);
 }
 
 void LiveEstimate::save_map() {

@@ -33,7 +33,7 @@ class LiveEstimate {
                Estimator& estimator, LiveLog log, LiveStart start);
 
   /// Estimates until the reader ends, then processes what the estimator has queued and completes
-  /// the log. Error when the log cannot be written.
+  /// the log. Error when the log could not be written, which is a warning meanwhile.
   Result<void> run();
 
   /// Writes the map to the log and prints where.
@@ -42,6 +42,9 @@ class LiveEstimate {
   /// Publishes and logs that no message has come for so long [s]; prints when that begins.
   void tell_silence(double seconds);
 
+  /// Prints the warning; its reason is in the health from now on.
+  void warn(const ReadingWarning& warning);
+
   /// The last pose, as published; none: nothing.
   const std::optional<StampedPose>& last() const { return last_; }
 
@@ -49,13 +52,14 @@ class LiveEstimate {
   void print_summary(bool source_time) const;
 
  private:
-  Result<void> take(const Delivery& delivery);
-  Result<void> take_rows();
+  void take(const Delivery& delivery);
+  void take_rows();
+  void log(std::span<const StampedPose> poses, std::span<const HealthRow> health);
   void warn_of_motion();
   void publish_health(std::vector<HealthRow>& rows);
   void publish(const HealthRow& row);
   void publish_points(Time stamp);
-  Result<void> save_now_and_then();
+  void save_now_and_then();
   std::vector<Eigen::Vector3f> placed(std::vector<Eigen::Vector3f> points) const;
 
   Transport& transport_;

@@ -48,8 +48,8 @@ Result<LiveLog> LiveLog::create(const std::filesystem::path& folder, const std::
   return log;
 }
 
-Result<void> LiveLog::add(std::span<const StampedPose> poses, std::span<const HealthRow> health) {
-  if (folder_.empty()) return {};
+void LiveLog::add(std::span<const StampedPose> poses, std::span<const HealthRow> health) {
+  if (folder_.empty() || !state_) return;
   for (const StampedPose& each : poses) {
     if (count_++ == 0) first_ = last_ = each.pose.translation;
     path_m_ += (each.pose.translation - last_).norm();
@@ -62,8 +62,8 @@ Result<void> LiveLog::add(std::span<const StampedPose> poses, std::span<const He
   }
   poses_ << tum_text(poses) << std::flush;
   health_ << health_table_.take_text() << std::flush;
-  if (poses_ && health_) return {};
-  return failure(fmt::format("{}: cannot be written: no space left?", folder_.string()));
+  if (poses_ && health_) return;
+  state_ = failure(fmt::format("{}: cannot be written: no space left?", folder_.string()));
 }
 
 Result<void> LiveLog::save_map(std::span<const Eigen::Vector3f> points) const {

@@ -26,11 +26,15 @@ class LiveLog {
   /// with content: a run without any message leaves empty ones.
   static Result<LiveLog> create(const std::filesystem::path& folder, const std::string& name);
 
-  /// Appends the rows. Error when the disk is full.
-  Result<void> add(std::span<const StampedPose> poses, std::span<const HealthRow> health);
+  /// Appends the rows. After an error nothing more is written: a full disk must not end the
+  /// estimate.
+  void add(std::span<const StampedPose> poses, std::span<const HealthRow> health);
 
   /// Writes the map, in the odometry frame [m]; nothing without points.
   Result<void> save_map(std::span<const Eigen::Vector3f> points) const;
+
+  /// The first error of `add`: no space left.
+  const Result<void>& state() const { return state_; }
 
   /// Writes estimate.json: what was read so far, counts of the reader and of the estimator, poses.
   /// `complete`: the estimate has ended.
@@ -48,6 +52,7 @@ class LiveLog {
   std::ofstream health_;
   CsvTable health_table_;
   std::size_t count_ = 0;  ///< poses
+  Result<void> state_;
   double path_m_ = 0.0;
   Eigen::Vector3d first_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d last_ = Eigen::Vector3d::Zero();

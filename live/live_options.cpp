@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 
 namespace aims {
 namespace {
@@ -22,6 +23,17 @@ constexpr const char* kRos1Footer =
 constexpr const char* kDdsFooter =
     "CYCLONEDDS_URI chooses the interfaces. Exit codes: 0 ok, 2 bad usage, configuration or "
     "topics.";
+
+/// What ROS 2 takes as a namespace: words of letters, digits and _, joined by /.
+std::string is_node_name(const std::string& name) {
+  const bool fits = std::ranges::all_of(
+      name, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '/'; });
+  const bool joined = !name.empty() && name.front() != '/' && name.back() != '/' &&
+                      name.find("//") == std::string::npos &&
+                      std::isdigit(static_cast<unsigned char>(name.front())) == 0;
+  return fits && joined ? ""
+                        : fmt::format("expected letters, digits and _, e.g. aims, got '{}'", name);
+}
 
 void add_options(CLI::App& app, LiveOptions& options) {
   app.add_option("--estimator,--estimators", options.estimator, "Estimator to run (aims_d)");
@@ -57,7 +69,8 @@ void add_options(CLI::App& app, LiveOptions& options) {
 void add_dds_options(CLI::App& app, LiveOptions& options) {
   app.add_option("--domain", options.domain, "DDS domain ($ROS_DOMAIN_ID, else 0)")
       ->check(CLI::Range(0, 232));
-  app.add_option("--node", options.node, "Namespace of the published topics (aims)");
+  app.add_option("--node", options.node, "Namespace of the published topics (aims)")
+      ->check(is_node_name);
   app.add_flag("--source-time,--source_time", options.source_time,
                "Arrivals are the publishers' times of sending: for aims_play at another pace");
   app.add_option("--tell", options.tell,

@@ -23,10 +23,11 @@ constexpr Duration kCatchUp = 2 * kSecond;
 constexpr Duration kMaxGathered =
     10 * kSecond;  ///< of the messages gathered, however long it takes
 
-/// Large types that estimators do not use.
-constexpr std::array<std::string_view, 6> kIgnoredTypes = {
-    "sensor_msgs/Image", "sensor_msgs/CompressedImage", "stereo_msgs/DisparityImage",
-    "rosgraph_msgs/Log", "rosgraph_msgs/Clock",         "visualization_msgs/MarkerArray"};
+/// Types that estimators do not use: large ones, and what every node of ROS 2 publishes.
+constexpr std::array<std::string_view, 8> kIgnoredTypes = {
+    "sensor_msgs/Image",  "sensor_msgs/CompressedImage",  "stereo_msgs/DisparityImage",
+    "rosgraph_msgs/Log",  "rosgraph_msgs/Clock",          "visualization_msgs/MarkerArray",
+    "rcl_interfaces/Log", "rcl_interfaces/ParameterEvent"};
 
 /// Whether a live estimate publishes that topic: another one, which runs beside this one.
 bool is_estimated(const std::string& topic, const std::map<std::string, std::string>& topics) {
@@ -130,17 +131,26 @@ Result<RecordingReader> try_open(Transport& transport, Commands& commands,
 
 }  // namespace
 
-Result<RecordingReader> open_live_recording(
-    Transport& transport, Commands& commands, const RecordingConfig& config,
-    const LiveRecordingOptions& options, const SetupCheck& check_setup,
-    const std::function<void(const std::string&)>& waiting) {
-  Gathering gathering(transport, commands);
+namespace {
+
+/// The reader once it can be opened. Error when the node ends before, or after `patience`.
+Result<RecordingReader> wait_to_open(Transport& transport, Commands& commands, Gathering& gathering,
+                                     const RecordingConfig& config,
+                                     const LiveRecordingOptions& options,
+                                     const SetupCheck& check_setup,
+                                     const std::function<void(const std::string&)>& waiting) {
   const Stopwatch since_start;
   Stopwatch since_report;
+  const std::string own = transport.resolved("~odometry");
   std::string missing = "no messages yet";
   while (transport.running()) {
     gathering.collect();
-    if (gathering.span() >= options.settle) {
+    if (transport.topics().contains(own)) {
+      missing = fmt::format(
+          "another program publishes {} (for 10 s after it was killed): end it, or "
+          "choose another --node",
+          own);
+    } else if (gathering.span() >= options.settle) {
       auto reader = try_open(transport, commands, gathering, config, options, check_setup);
       if (reader) return reader;
       missing = reader.error().message;
@@ -155,6 +165,19 @@ Result<RecordingReader> open_live_recording(
     since_report = Stopwatch();
   }
   return failure(fmt::format("stopped before the estimate started: {}", missing));
+}
+
+}  // namespace
+
+Result<RecordingReader> open_live_recording(
+    Transport& transport, Commands& commands, const RecordingConfig& config,
+    const LiveRecordingOptions& options, const SetupCheck& check_setup,
+    const std::function<void(const std::string&)>& waiting) {
+  Gathering gathering(transport, commands);
+  auto reader = wait_to_open(transport, commands, gathering, config, options, check_setup, waiting);
+  // What was heard is to tell why it did not start.
+  if (!reader && options.observer) LiveSource(gathering.messages(), {}).go_live(options.observer);
+  return reader;
 }
 
 }  // namespace aims

@@ -98,14 +98,18 @@ class Session {
                               .max_wait = from_seconds(options_.max_wait),
                               .observer = {},
                               .clocks = &clocks};
+    LiveEstimate* estimate = nullptr;
     if (!options_.record.empty()) {
-      live.observer = [&](const BagMessage& message) { recorder->add(message); };
+      live.observer = [&](const BagMessage& message) { record(message, *recorder, estimate); };
     }
     auto reader = open_live_recording(
         transport_, commands_, config_.recording, live,
         [&](const RecordingSetup& setup) { return check_topics(config_, setup); },
-        [](const std::string& missing) { print_line("waiting: " + missing); });
-    if (!reader) return tl::unexpected(reader.error());
+        [&](const std::string& missing) { tell_waiting(missing); });
+    if (!reader) {
+      recorder->close();
+      return tl::unexpected(reader.error());
+    }
     const auto warnings = warnings_of(config_, reader->setup());
     for (const std::string& note : reader->setup().notes) print_line("note: " + note);
     for (const ReadingWarning& each : warnings) print_line("warning: " + each.text);
@@ -116,15 +120,32 @@ class Session {
         fmt::format("{} publishes {}", options_.estimator, transport_.resolved("~odometry")));
     LiveEstimate running(transport_, publications_, *reader, **estimator, std::move(*log),
                          {T_odom_start_, &clocks, warnings, part > 1});
+    estimate = &running;
     commands_.on_save_map([&] { running.save_map(); });
     commands_.on_silence([&](double seconds) { running.tell_silence(seconds); });
     const auto done = running.run();
+    estimate = nullptr;
     commands_.on_save_map({});
     commands_.on_silence({});
     const auto recorded = recorder->close();
     running.print_summary(options_.source_time);
     if (running.last()) last_ = *running.last();
     return done ? recorded : done;
+  }
+
+  /// A full disk is a warning at once; the estimate goes on.
+  static void record(const BagMessage& message, Recorder& recorder, LiveEstimate* estimate) {
+    const bool recorded = recorder.state().has_value();
+    recorder.add(message);
+    if (!recorded || recorder.state()) return;
+    const std::string& why = recorder.state().error().message;
+    if (estimate == nullptr) return print_line("warning: " + why);
+    estimate->warn({"the recording cannot be written", why});
+  }
+
+  void tell_waiting(const std::string& missing) {
+    print_line("waiting: " + missing);
+    publications_.health({wall_time(), HealthState::kStarting, {"waiting: " + missing}, NAN}, {});
   }
 
   Result<void> write_config(const fs::path& folder) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 #include "live/odometry_content.hpp"
@@ -73,8 +74,10 @@ void Publications::health(const HealthRow& row,
   if (!row.reasons.empty()) {
     content.message += fmt::format(": {}", fmt::join(row.reasons, "; "));
   }
-  figures.insert(figures.begin(),
-                 {"position sigma [m]", fmt::format("{:.3f}", row.position_sigma)});
+  if (std::isfinite(row.position_sigma)) {
+    figures.insert(figures.begin(),
+                   {"position sigma [m]", fmt::format("{:.3f}", row.position_sigma)});
+  }
   content.values = std::move(figures);
   send(diagnostics_, diagnostics_message(header(row.stamp), content, serialization_));
 }

@@ -22,6 +22,9 @@ class Recorder {
   /// Errors are kept for `close`: a full disk must not end the estimate.
   void add(const BagMessage& message);
 
+  /// The first error of `add`: from then on nothing is recorded.
+  const Result<void>& state() const { return state_; }
+
   /// Completes the file. The first error, of `add` too.
   Result<void> close();
 

@@ -217,8 +217,8 @@ void DdsTransport::Impl::reopen_refused() {
   }
 }
 
-/// Now and then reports topics of another type, or of which two publishers send; of transforms
-/// there may be several.
+/// Now and then reports topics of another type, or of which two publishers send; of diagnostics and
+/// transforms there may be several.
 void DdsTransport::Impl::watch_publishers() {
   const auto now = std::chrono::steady_clock::now();
   if (now - watched < kWatchPeriod) return;
@@ -230,7 +230,7 @@ void DdsTransport::Impl::watch_publishers() {
       tell(fmt::format("a publisher of {} sends {}: expected {}, it is not heard", topic, other,
                        type));
     }
-    if (type == "tf2_msgs/TFMessage") continue;
+    if (type == "tf2_msgs/TFMessage" || type == "diagnostic_msgs/DiagnosticArray") continue;
     const std::size_t count = discovery.publishers(topic);
     if (count > 1) tell(fmt::format("{} has {} publishers: expected one", topic, count));
   }

@@ -2,14 +2,12 @@
 #include "live/watch/web_server.hpp"
 
 #include <fmt/format.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <sys/time.h>
 
-#include <atomic>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
+#include <chrono>
 #include <string_view>
 #include <thread>
 #include <utility>
@@ -18,11 +16,14 @@ namespace aims {
 namespace {
 
 namespace asio = boost::asio;
+namespace beast = boost::beast;
 namespace http = boost::beast::http;
 using Tcp = asio::ip::tcp;
+using Request = http::request<http::empty_body>;
+using Response = http::response<http::string_body>;
 
-constexpr timeval kPatience = {2, 0};  ///< for a client
-constexpr int kPollMs = 200;           ///< between looks whether to end
+constexpr auto kPatience = std::chrono::seconds(2);      ///< with a client
+constexpr auto kPause = std::chrono::milliseconds(100);  ///< where no connection can be taken
 
 /// The name without the port: "localhost" of "localhost:8080", "[::1]" of "[::1]:8080".
 std::string_view host_of(std::string_view header) {
@@ -34,25 +35,33 @@ bool is_this_computer(std::string_view host) {
   return host == "localhost" || host == "[::1]" || host.starts_with("127.");
 }
 
+/// One request and its answer; it lives as long as its operations.
+struct Exchange {
+  explicit Exchange(Tcp::socket socket) : stream(std::move(socket)) {}
+
+  beast::tcp_stream stream;
+  beast::flat_buffer buffer;
+  Request request;
+  Response response;
+};
+
 }  // namespace
 
 struct WebServer::Impl {
   asio::io_context context;
   Tcp::acceptor acceptor{context};
+  asio::steady_timer pause{context};
   Handler handler;
   bool loopback = true;
-  std::atomic<bool> ended{false};
   std::thread thread;
 
-  void serve();
-  void answer(Tcp::socket& socket) const;
-  http::response<http::string_body> response_to(
-      const http::request<http::empty_body>& request) const;
+  void accept();
+  void answer(Tcp::socket socket) const;
+  Response response_to(const Request& request) const;
 };
 
-http::response<http::string_body> WebServer::Impl::response_to(
-    const http::request<http::empty_body>& request) const {
-  http::response<http::string_body> response(http::status::ok, request.version());
+Response WebServer::Impl::response_to(const Request& request) const {
+  Response response(http::status::ok, request.version());
   response.set("X-Content-Type-Options", "nosniff");
   response.set(http::field::cache_control, "no-store");
   response.keep_alive(false);
@@ -73,35 +82,42 @@ http::response<http::string_body> WebServer::Impl::response_to(
   return response;
 }
 
-void WebServer::Impl::answer(Tcp::socket& socket) const {
-  for (const int option : {SO_RCVTIMEO, SO_SNDTIMEO}) {
-    setsockopt(socket.native_handle(), SOL_SOCKET, option, &kPatience, sizeof(kPatience));
-  }
-  boost::beast::flat_buffer buffer;
-  http::request<http::empty_body> request;
-  boost::system::error_code error;
-  http::read(socket, buffer, request, error);
-  if (error) return;
-  http::write(socket, response_to(request), error);
-  socket.shutdown(Tcp::socket::shutdown_both, error);
+void WebServer::Impl::answer(Tcp::socket socket) const {
+  const auto exchange = std::make_shared<Exchange>(std::move(socket));
+  exchange->stream.expires_after(kPatience);
+  http::async_read(exchange->stream, exchange->buffer, exchange->request,
+                   [this, exchange](beast::error_code error, std::size_t) {
+                     if (error) return;
+                     exchange->response = response_to(exchange->request);
+                     http::async_write(exchange->stream, exchange->response,
+                                       [exchange](beast::error_code, std::size_t) {
+                                         beast::error_code none;
+                                         exchange->stream.socket().shutdown(
+                                             Tcp::socket::shutdown_both, none);
+                                       });
+                   });
 }
 
-void WebServer::Impl::serve() {
-  while (!ended) {
-    pollfd waiting = {acceptor.native_handle(), POLLIN, 0};
-    if (poll(&waiting, 1, kPollMs) <= 0) continue;
-    boost::system::error_code error;
-    Tcp::socket socket = acceptor.accept(error);
-    if (!error) answer(socket);
-  }
+void WebServer::Impl::accept() {
+  acceptor.async_accept([this](beast::error_code error, Tcp::socket socket) {
+    if (!error) {
+      answer(std::move(socket));
+      return accept();
+    }
+    pause.expires_after(kPause);
+    pause.async_wait([this](beast::error_code stopped) {
+      if (!stopped) accept();
+    });
+  });
 }
 
 WebServer::WebServer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {
-  impl_->thread = std::thread([server = impl_.get()] { server->serve(); });
+  impl_->accept();
+  impl_->thread = std::thread([server = impl_.get()] { server->context.run(); });
 }
 
 WebServer::~WebServer() {
-  impl_->ended = true;
+  impl_->context.stop();
   impl_->thread.join();
 }
 
@@ -109,7 +125,7 @@ Result<std::unique_ptr<WebServer>> WebServer::start(const std::string& address, 
                                                     Handler handler) {
   auto impl = std::make_unique<Impl>();
   impl->handler = std::move(handler);
-  boost::system::error_code error;
+  beast::error_code error;
   const auto parsed = asio::ip::make_address(address, error);
   if (error) return failure(fmt::format("'{}': expected an address, e.g. 127.0.0.1", address));
   impl->loopback = parsed.is_loopback();

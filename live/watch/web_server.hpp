@@ -16,9 +16,9 @@ struct WebContent {
   std::string body;
 };
 
-/// A small web server: GET alone, one request per connection, one connection at a time, each for
-/// at most two seconds. On an address of this computer it answers only to requests for this
-/// computer, so that no page of another site reads from it.
+/// A small web server: GET alone, one request per connection, each for at most two seconds; a
+/// client that is silent keeps nobody waiting. On an address of this computer it answers only to
+/// requests for this computer, so that no page of another site reads from it.
 class WebServer {
  public:
   /// Gets the target of a request, "/state.json?from=3"; called in the server's thread.

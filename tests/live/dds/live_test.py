@@ -7,13 +7,16 @@ import glob
 import json
 import os
 import re
+import shlex
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import time
 import unittest
 import urllib.request
+from xml.etree import ElementTree
 
 AIMS, GARBAGE, PEER = None, None, None
 FOLDER = os.path.dirname(os.path.abspath(__file__))
@@ -63,14 +66,14 @@ def estimate(recording, folder, *options):
 class Live:
     """`aims live` on a recording that `aims play` plays."""
 
-    def __init__(self, recording, name, live=(), play=(), play_domain=None):
+    def __init__(self, recording, name, live=(), play=(), play_domain=None, limit=()):
         for old in (name, name + ".mcap", *glob.glob(name + "-[0-9].mcap")):
             shutil.rmtree(old, ignore_errors=True)
             if os.path.exists(old):
                 os.remove(old)
         self.name, self.domain = name, own_domain()
         with open(name + ".log", "w", encoding="utf-8") as log:
-            self.live = subprocess.Popen([AIMS, "live", "--domain", self.domain, "--out", name, "--record",
+            self.live = subprocess.Popen([*limit, AIMS, "live", "--domain", self.domain, "--out", name, "--record",
                                           name + ".mcap", "--settle", "2", *TOPICS, *live], stdout=log, stderr=log)
         self.play_command = [AIMS, "play", recording, "--domain", play_domain or self.domain, *play]
         self.start_play("--wait")
@@ -270,6 +273,48 @@ class LiveEstimate(unittest.TestCase):
             self.assertEqual(watch.wait(10), 0)
             watch.stdout.close()
         self.assertEqual(live.finish(), 0, live.log())
+
+    def test_a_silent_client_does_not_block_the_page(self):
+        watch = subprocess.Popen([AIMS, "watch", "--domain", own_domain(), "--port", "0"], stdout=subprocess.PIPE,
+                                 text=True)
+        try:
+            url = watch.stdout.readline().split()[-1]
+            port = int(url.rsplit(":", 1)[1].strip("/"))
+            with socket.create_connection(("127.0.0.1", port)) as silent:
+                silent.sendall(b"GET / HT")
+                with urllib.request.urlopen(url + "state.json", timeout=5) as answer:
+                    self.assertEqual(answer.status, 200)
+                silent.settimeout(10)
+                self.assertEqual(silent.recv(1), b"", "it is closed after two seconds")
+        finally:
+            watch.send_signal(signal.SIGTERM)
+            self.assertEqual(watch.wait(10), 0)
+            watch.stdout.close()
+
+    def test_what_was_heard_is_recorded_though_it_never_starts(self):
+        live = Live("walk.mcap", "unstarted", ["--set", "recording.topics.lidar=/no/such", *PATIENT])
+        live.wait_for("reason", lambda: "waiting: " in live.log() and "/no/such" in live.log())
+        live.live.send_signal(signal.SIGTERM)
+        self.assertEqual(live.live.wait(20), 2, live.log())
+        live.kill()
+        live.play.communicate()
+        info = subprocess.run([AIMS, "info", "unstarted.mcap"], capture_output=True, text=True, check=False).stdout
+        self.assertIn("/imu/data", info)
+        self.assertIn("/lidar/points", info)
+
+    def test_a_full_disk_is_a_warning_and_the_estimate_goes_on(self):
+        live = Live("walk.mcap", "full", PATIENT, limit=["bash", "-c", 'ulimit -f 2000; exec "$@"', "bash"])
+        self.assertEqual(live.finish(), 2, live.log())
+        self.assertRegex(live.log(), "warning: .*full.mcap")
+        self.assertGreater(len(places(live.poses())), 60, live.log())
+        self.assertIn(b"the recording cannot be written", content("full/aims_d.health.csv"))
+
+    def test_each_setting_of_the_unit_is_one_word(self):
+        file = os.path.join(os.path.dirname(SCENARIO), "..", "..", "live", "aims-live.service")
+        with open(file, encoding="utf-8") as unit:
+            settings = [line.split("=", 1)[1] for line in unit if line.startswith("Environment=")]
+        self.assertEqual([len(shlex.split(each)) for each in settings], [1, 1])
+        self.assertEqual(ElementTree.fromstring(shlex.split(settings[1])[0].split("=", 1)[1]).tag, "CycloneDDS")
 
     def test_after_a_crash_the_files_can_be_used(self):
         live = Live("walk.mcap", "crash", PATIENT)
