@@ -133,8 +133,12 @@ std::vector<std::string> overrides_of(const SharedOptions& options) {
 
 namespace {
 
-/// `overrides_of` on top of what the calibration sets.
+/// `overrides_of` on top of what the calibration sets. Error for an estimator of the command line
+/// that there is not: as a key `run` it would be blamed on the scenario's file.
 Result<std::vector<std::string>> calibrated_overrides_of(const SharedOptions& options) {
+  if (auto specs = check_estimator_specs(joined_specs(options.estimators)); !specs) {
+    return failure("--estimators: " + specs.error().message);
+  }
   std::vector<std::string> overrides;
   if (!options.calibration.empty()) {
     const auto calibration = read_robot_calibration(options.calibration);

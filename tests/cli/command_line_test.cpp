@@ -88,6 +88,7 @@ TEST_F(CommandLine, BadUsageIsRefused) {
   expect_refused(kCorridor + " --set lidar.range_mx=3", "did you mean 'lidar.range_max'?");
   expect_refused(kCorridor + " --set lidar.range_max", "--set");
   expect_refused(kCorridor + " --estimators aims,lioo", "did you mean 'lio'?");
+  expect_refused(kCorridor + " --estimators aims,lioo", "aims run: --estimators: no estimator");
   expect_refused(kCorridor + " --seeds x", "--seeds");
   expect_refused(kCorridor + " --out /proc/nowhere/run", "/proc/nowhere");
 }

@@ -187,6 +187,24 @@ test("one scenario over its seeds leads with a sentence, its table and box plots
   assert.deepEqual(troubles, []);
 });
 
+test("successes have their interval, pairs of estimators McNemar's test", { skip }, async () => {
+  const { page, troubles } = await pages.show(suite());
+  await page.locator("#seeds").getByLabel("Scenario").selectOption("severity_3");
+  assert.match(await page.locator('#seeds tr[data-row="a"]').innerText(), /3 of 3 \(44–100 %\)/);
+  assert.match(await page.locator('#seeds tr[data-row="b"]').innerText(), /0 of 3 \(0–56 %\)/);
+  assert.match(await page.locator('#pairs tr[data-row="a/b"]').innerText(), /^a, b\s+12\s+3\s+0\s+0\.250\s+0\s+0\s+1\.00$/);
+  assert.deepEqual(troubles, []);
+});
+
+test("on a phone a matrix of four estimators needs no scrolling", { skip }, async () => {
+  const data = suite();
+  for (const { estimators } of data.suite.scenarios) Object.assign(estimators, { lio: estimators.a, leg: estimators.b });
+  data.runs.forEach((run) => { run.href = null; });
+  const { page } = await pages.show(data, { width: 420 });
+  const [shown, inside] = await page.locator("#matrix .table-frame").evaluate((frame) => [frame.clientWidth, frame.scrollWidth]);
+  assert.ok(inside <= shown + 1, `${inside} px in ${shown} px`);
+});
+
 test("hostile names stay names", { skip }, async () => {
   const names = [kHostile, "__proto__", "constructor", "x".repeat(300)];
   const data = { ...suite({ first: kHostile, names }), roc: detectors(kHostile), paper: paper(kHostile, []), compare: comparison(kHostile), title: kHostile, notes: [kHostile] };

@@ -14,7 +14,7 @@ function score(median, count = 3) {
 
 function estimator(ate, successes = 3, runs = 3) {
   return {
-    runs, successes, success_rate: successes / runs,
+    runs, successes, success_rate: successes / runs, success_low: successes === runs ? 0.438 : 0, success_high: successes === runs ? 1 : 0.562,
     scores: {
       success: { median: successes === runs ? 1 : 0, worst: 1, count: runs }, "m_list_percent.all": score(ate === null ? null : 2 * ate),
       m_end_m: score(ate), ate_m: score(ate), max_error_z_m: score(null, 0),
@@ -48,6 +48,7 @@ export function suite({ first = "a", names = ["severity_1", "severity_2", "sever
     schema: "aims.page/2", kind: "suite", title: "Suite made up", version: "0.1.0", headline: kHeadline, runs, roc: null, compare: null, notes: [],
     suite: {
       schema: "aims.suite/1", version: "0.1.0", code: "0123456789abcdef", complete: true, scenarios, failures: [],
+      success_pairs: [{ first, second: "b", sequences: 12, mcnemar: { success: { only_first: 3, only_second: 0, p: 0.25 }, success_1_percent: { only_first: 0, only_second: 0, p: 1 } } }],
       families: [{ name: "severity", level_unit: "step", mildest_level: 1, median_equivalent_returns: [900, 80, null],
         estimators: { [first]: { breaks_at: [3], points: levels(first) }, b: { breaks_at: [], points: levels("b") } } }],
     },

@@ -24,25 +24,25 @@ export interface Frame {
 function linearTicks(low: number, high: number, most: number): number[] {
   const rough = (high - low) / Math.max(1, most);
   const power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].map((each) => each * power).find((each) => each >= rough) ?? 10 * power;
+  // A tick or two more than `most` beat a step that is twice as wide.
+  const step = [1, 2, 5, 10].map((each) => each * power).find((each) => each >= 0.8 * rough) ?? 10 * power;
   const ticks: number[] = [];
   for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) ticks.push(k * step);
   return ticks;
 }
 
+/** The finest of 1-2-5, 1-3 and 1 per decade that fits, else every so many decades; linear in less than a decade. */
 function logTicks(low: number, high: number, most: number): number[] {
   const first = Math.floor(Math.log10(low) + 1e-9);
   const last = Math.ceil(Math.log10(high) - 1e-9);
-  const steps = last - first <= most / 3 ? [1, 2, 5] : [1];
-  const stride = Math.max(1, Math.ceil((last - first) / most));
-  const ticks: number[] = [];
-  for (let power = first; power <= last; power += stride) {
-    for (const step of steps) {
-      const value = step * 10 ** power;
-      if (value >= low * (1 - 1e-9) && value <= high * (1 + 1e-9)) ticks.push(value);
-    }
-  }
-  return ticks.length > 2 ? ticks : linearTicks(low, high, most);
+  const of = (steps: number[], stride = 1) => {
+    const ticks: number[] = [];
+    for (let power = first; power <= last; power += stride) ticks.push(...steps.map((step) => step * 10 ** power));
+    return ticks.filter((value) => value >= low * (1 - 1e-9) && value <= high * (1 + 1e-9));
+  };
+  const fit = [[1, 2, 5], [1, 3], [1]].map((steps) => of(steps)).find((ticks) => ticks.length <= most + 1) ??
+    of([1], Math.ceil((last - first) / most));
+  return fit.length > 1 ? fit : linearTicks(low, high, Math.max(most, 4));
 }
 
 /** Ends that hold all values, with some air; [0, 1] for none. Log: of those above zero. */

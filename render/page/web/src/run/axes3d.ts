@@ -25,8 +25,17 @@ function rulers({ min, max }: Bounds, preset: Preset, longX: boolean): Ruler[] {
   return [x, y];
 }
 
-/** Least room of a tick on the screen [px]. */
+/** Least room of a tick on the screen, and width of an axis's name [px]. */
 const kRoom = 46;
+const kName = 38;
+
+/** The name stands beyond the end of its axis; where that is outside the picture, above or below it. */
+function nameAt([x, y]: [number, number], upright: boolean, width: number) {
+  if (upright) {
+    return x > kName ? { x: x - 6, y: y - 12, "text-anchor": "end" } : { x: 2, y: y - 12, "text-anchor": "start" };
+  }
+  return x + kName < width ? { x: x + 4, y: y + 4, "text-anchor": "start" } : { x: width - 2, y: y + 30, "text-anchor": "end" };
+}
 
 export class Axes3D {
   readonly element = svg("svg", { class: "axes-3d", "aria-hidden": "true" });
@@ -40,10 +49,10 @@ export class Axes3D {
       const p = new Vector3(point.x, point.y, point.z * heightScale).project(camera);
       return p.z > 1 || p.z < -1 ? null : [((p.x + 1) / 2) * width, ((1 - p.y) / 2) * height];
     };
-    this.element.replaceChildren(...rulers(bounds, preset, longX).flatMap((each) => this.ruler(each, screen)));
+    this.element.replaceChildren(...rulers(bounds, preset, longX).flatMap((each) => this.ruler(each, screen, width)));
   }
 
-  private ruler({ name, from, to }: Ruler, screen: (point: Vector3) => [number, number] | null): SVGElement[] {
+  private ruler({ name, from, to }: Ruler, screen: (point: Vector3) => [number, number] | null, width: number): SVGElement[] {
     const a = screen(from);
     const b = screen(to);
     if (!a || !b) return [];
@@ -61,8 +70,7 @@ export class Axes3D {
       const aside = upright ? { x: at[0] - 6, y: at[1] + 4, "text-anchor": "end" } : { x: at[0], y: at[1] + 15, "text-anchor": "middle" };
       parts.push(svg("circle", { cx: at[0], cy: at[1], r: 1.8 }), svg("text", aside, tick.label));
     }
-    const end = upright ? { x: b[0] - 6, y: b[1] - 6, "text-anchor": "end" } : { x: b[0] + 4, y: b[1] + 4, "text-anchor": "start" };
-    parts.push(svg("text", { class: "axis-name", ...end }, `${name} [m]`));
+    parts.push(svg("text", { class: "axis-name", ...nameAt(b, upright, width) }, `${name} [m]`));
     return parts;
   }
 }

@@ -38,6 +38,9 @@ export interface PanelSpec {
 
 const kAxisWidth = 54;
 const kHeight = 84;
+const kTimeHeight = 28;
+/** Half of the last label of the time. */
+const kRightPadding = 16;
 const kFont = "11px system-ui, sans-serif";
 
 function withAlpha(hex: string, alpha: number): string {
@@ -69,7 +72,7 @@ export class Panel {
     this.sigma = spec.band ? h("output", { "data-series": "3 sigma" }) : null;
     const body = h("div", { class: "panel-body" });
     this.element = h("div", { class: "panel", "data-panel": spec.id }, this.head(), body);
-    const height = kHeight + (withTime ? 22 : 0);
+    const height = kHeight + (withTime ? kTimeHeight : 0);
     this.plot = new uPlot(this.options(width, height, withTime), this.data(), body);
     this.line = h("div", { class: "cursor-line" });
     this.plot.over.append(this.line);
@@ -146,7 +149,7 @@ export class Panel {
     return {
       width,
       height,
-      padding: [6, 6, withTime ? 0 : 6, 0],
+      padding: [6, kRightPadding, withTime ? 0 : 6, 0],
       cursor: { show: false },
       legend: { show: false },
       scales: {
@@ -161,8 +164,8 @@ export class Panel {
         {
           ...axis,
           show: withTime,
-          size: 22,
-          gap: 2,
+          size: kTimeHeight,
+          gap: 9,
           space: 60,
           values: (_plot, list) => list.map((value) => `${axisText(value)} s`),
         },

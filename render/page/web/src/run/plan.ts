@@ -153,7 +153,10 @@ function points(data: RunPayload, frame: Frame): SVGElement {
     if (seen.has(name) || !isNumber(x) || !isNumber(y)) continue;
     seen.add(name);
     const [px, py] = place(frame, x, y);
-    group.append(svg("circle", { cx: px, cy: py, r: 3.5 }), svg("text", { x: px + 6, y: py - 5 }, name.slice(0, 12)));
+    const shown = name.slice(0, 12);
+    const beyond = px + 6 + 8 * shown.length > kMargin.left + frame.width;
+    group.append(svg("circle", { cx: px, cy: py, r: 3.5 }),
+      svg("text", { x: px + (beyond ? -6 : 6), y: py - 5, "text-anchor": beyond ? "end" : "start" }, shown));
   }
   return group;
 }

@@ -81,6 +81,11 @@ function numbers(rows: SuiteScenario[], estimators: string[], view: View): numbe
     .filter(isNumber);
 }
 
+/** The name, which may break after an underscore. */
+function breakable(name: string): (string | HTMLElement)[] {
+  return name.split(/(?<=_)/).flatMap((part, i) => (i === 0 ? [part] : [h("wbr"), part]));
+}
+
 function levelText(row: SuiteScenario): string | null {
   return row.family && isNumber(row.level) ? `${row.family} ${row.level} ${row.level_unit ?? ""}` : null;
 }
@@ -199,7 +204,7 @@ function matrix(data: SuitePayload, view: View, open: Cells["open"], changed: ()
   const body = rows.map((row) => {
     const shade = view.shade === "row" ? unitScale(numbers([row], estimators, view)).at : byMatrix;
     const cells: Cells = { row, view, shade, best: bestOf(row, estimators, view), open };
-    return h("tr", { "data-row": row.name }, h("th", { scope: "row", title: levelText(row) }, row.name),
+    return h("tr", { "data-row": row.name }, h("th", { scope: "row", title: levelText(row) }, ...breakable(row.name)),
       ...estimators.map((each) => cell(cells, each)), anyLink ? links(data, row) : null);
   });
   const what = view.score === kSuccessRate ? title : `${view.statistic} of ${title}${unit ? ` [${unit}]` : ""}`;

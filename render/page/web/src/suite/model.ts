@@ -16,6 +16,10 @@ export interface EstimatorSummary {
   runs: number;
   successes: number;
   success_rate: Maybe;
+  /** Wilson's interval, 95 %. */
+  success_low?: Maybe;
+  success_high?: Maybe;
+  successes_1_percent?: number;
   scores: Record<string, ScoreSummary>;
 }
 
@@ -46,6 +50,14 @@ export interface SuiteScenario {
   invalid?: InvalidRun[];
   expectations?: Expectation[];
   estimators: Record<string, EstimatorSummary>;
+}
+
+/** McNemar's exact test of two estimators on the sequences that both ran. */
+export interface SuccessPair {
+  first: string;
+  second: string;
+  sequences: number;
+  mcnemar: Record<string, { only_first: number; only_second: number; p: number }>;
 }
 
 export interface FamilyPoint {
@@ -189,6 +201,7 @@ export interface SuitePayload extends PagePayload {
     interval?: string;
     scenarios: SuiteScenario[];
     families?: Family[];
+    success_pairs?: SuccessPair[];
     failures?: { scenario?: string; seed?: Maybe; message?: string }[];
   };
   headline: Headline[];

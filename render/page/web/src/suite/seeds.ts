@@ -35,6 +35,11 @@ function scoreColumn(score: Headline): Column<Row> {
   };
 }
 
+function successText({ successes, runs, success_low: low, success_high: high }: EstimatorSummary): string {
+  const rate = isNumber(low) && isNumber(high) ? ` (${Math.round(100 * low)}–${Math.round(100 * high)} %)` : "";
+  return `${successes} of ${runs}${rate}`;
+}
+
 function table(data: SuitePayload, scenario: SuiteScenario): HTMLElement {
   const rows = Object.keys(scenario.estimators).map((name): Row => ({ name, summary: summaryOf(scenario, name)! }));
   const columns: Column<Row>[] = [
@@ -44,12 +49,16 @@ function table(data: SuitePayload, scenario: SuiteScenario): HTMLElement {
     },
     ...data.headline.map(scoreColumn),
     {
-      title: "success", value: (row) => row.summary.successes,
-      show: (row) => `${row.summary.successes} of ${row.summary.runs}`,
+      title: "within 5 %", value: (row) => row.summary.successes,
+      hint: "95 % interval of the rate (Wilson)", show: (row) => successText(row.summary),
+    },
+    {
+      title: "within 1 %", value: (row) => row.summary.successes_1_percent,
+      show: (row) => `${row.summary.successes_1_percent ?? "–"} of ${row.summary.runs}`,
     },
   ];
   return sortableTable(rows, columns.filter((column, i) => i === 0 || rows.some((row) => column.value(row) !== null)), {
-    caption: "Median over seeds (worst). ✕: no run succeeded. Bold: best of those with a success.", rowName: (row) => row.name,
+    caption: "Median over seeds (worst). ✕: no run succeeded. Bold: best of those with a success. Within 5 % (success), 1 %: position error of the distance travelled so far; interval: 95 %.", rowName: (row) => row.name,
   });
 }
 

@@ -10,6 +10,7 @@ import { familySection } from "./families";
 import { matrixSection } from "./matrix";
 import { estimatorsOf, type Expectation, type SuitePayload } from "./model";
 import { multiplesSection } from "./multiples";
+import { pairsSection } from "./pairs";
 import { paperSection } from "./paper";
 import { seedsSection, seedsVerdict } from "./seeds";
 import { rocSection } from "./roc";
@@ -63,7 +64,8 @@ export function renderSuite(root: HTMLElement, data: SuitePayload): void {
   const runs = data.runs.length;
   const banner = invalidBanner(data);
   const one = data.suite.scenarios.length === 1;
-  const sections = [paperSection(data), one ? seedsSection(data) : matrixSection(data), one ? matrixSection(data) : seedsSection(data), multiplesSection(data), familySection(data), rocSection(data), compareSection(data),
+  const sections = [paperSection(data), one ? seedsSection(data) : matrixSection(data), one ? matrixSection(data) : seedsSection(data),
+    pairsSection(data), multiplesSection(data), familySection(data), rocSection(data), compareSection(data),
     expectationSection(data), failureSection(data)].filter((each) => each !== null);
   root.append(
     h("header", { class: "page-head" }, h("h1", {}, data.title), themeButton()),
