@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/baselines/bievr/bievr.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
 
 #include "estimator/baselines/bievr/scan_points.hpp"
-#include "estimator/degeneracy/cross_validation.hpp"
 
 namespace aims::bievr {
 namespace {
@@ -19,11 +19,13 @@ constexpr std::size_t kMinVoxels = 6;
 /// Further from the start indices of voxels would overflow [m].
 constexpr double kMaxDistance = 1e5;
 
-/// Eigenvalues of the information about the position with unknown rotation, per unit variance.
+/// Eigenvalues of the information about the position with unknown rotation (Schur complement), per
+/// unit variance.
 Eigen::Vector3d position_eigenvalues(const Matrix6& hessian) {
+  const Eigen::LDLT<Eigen::Matrix3d> rotation(hessian.topLeftCorner<3, 3>());
   const Eigen::Matrix3d information =
-      schur_complement(hessian.bottomRightCorner<3, 3>(), hessian.bottomLeftCorner<3, 3>(),
-                       hessian.topLeftCorner<3, 3>());
+      hessian.bottomRightCorner<3, 3>() -
+      hessian.bottomLeftCorner<3, 3>() * rotation.solve(hessian.topRightCorner<3, 3>());
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information, Eigen::EigenvaluesOnly)
       .eigenvalues();
 }
