@@ -30,7 +30,7 @@ constexpr std::array<LinePattern, 4> kPatterns = {LinePattern::kSolid, LinePatte
                                                   LinePattern::kDashDotted, LinePattern::kDotted};
 
 /// Styles of the estimators; a published preset has the colour of its system.
-constexpr std::array<std::pair<std::string_view, std::size_t>, 24> kOfEstimators = {{
+constexpr std::array<std::pair<std::string_view, std::size_t>, 25> kOfEstimators = {{
     {"aims_d", 0},
     {"aims", 1},
     {"tfs_plus", 2},
@@ -55,6 +55,7 @@ constexpr std::array<std::pair<std::string_view, std::size_t>, 24> kOfEstimators
     {"x_icp_published", 12},
     {"x_icp", 15},
     {"dcreg", 16},
+    {"bievr", 31},
 }};
 
 std::optional<std::size_t> fixed_style(std::string_view name) {
@@ -63,14 +64,17 @@ std::optional<std::size_t> fixed_style(std::string_view name) {
   return found == kOfEstimators.end() ? std::nullopt : std::optional(found->second);
 }
 
+/// A label has its style in the first two turns while it is free.
+constexpr std::size_t kPreferredStyles = 2 * kSeriesColors;
+
 /// Where the search for a free style begins: a sum over the letters (FNV-1a), the same on every
 /// machine.
 std::size_t preferred_style(std::string_view label) {
   const auto base = fixed_style(label.substr(0, label.find_first_of("+ ")));
-  if (base) return (*base + kSeriesColors) % kSeriesStyles;
+  if (base) return (*base + kSeriesColors) % kPreferredStyles;
   std::uint32_t sum = 2166136261U;
   for (const char c : label) sum = (sum ^ static_cast<unsigned char>(c)) * 16777619U;
-  return sum % kSeriesStyles;
+  return sum % kPreferredStyles;
 }
 
 }  // namespace
@@ -88,7 +92,7 @@ std::span<const double> dash_lengths(LinePattern pattern) {
 SeriesStyle series_style(std::size_t index) {
   const std::size_t style = index % kSeriesStyles;
   const auto& [light, dark] = kColors[style % kSeriesColors];
-  const std::size_t turn = style < kSeriesColors ? 0 : 1;
+  const std::size_t turn = style / kSeriesColors;
   return {light, dark, kPatterns[(style + turn) % kPatterns.size()]};
 }
 

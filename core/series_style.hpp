@@ -23,9 +23,10 @@ struct SeriesStyle {
   LinePattern pattern = LinePattern::kSolid;
 };
 
-/// Styles before they repeat: twelve colours, then the same ones with another pattern.
+/// Styles before they repeat: twelve colours in four turns, each colour in each turn with the next
+/// of the four patterns.
 inline constexpr std::size_t kSeriesColors = 12;
-inline constexpr std::size_t kSeriesStyles = 2 * kSeriesColors;
+inline constexpr std::size_t kSeriesStyles = 4 * kSeriesColors;
 
 /// Style `index` (cyclic). Within the first twelve any two colours are at least 0.085 apart in
 /// Oklab, also as seen without red, green or blue cones (Machado et al. 2009).

@@ -9,6 +9,7 @@
 #include "estimator/aims/eskf_estimator.hpp"
 #include "estimator/aims/leg_dead_reckoning.hpp"
 #include "estimator/aims/presets.hpp"
+#include "estimator/baselines/bievr/bievr.hpp"
 #include "estimator/baselines/fast_lio2/fast_lio2.hpp"
 #include "estimator/baselines/leg_kilo/leg_kilo.hpp"
 #include "estimator/baselines/lego_loam/lego_loam.hpp"
@@ -70,6 +71,9 @@ void add_baselines(std::vector<EstimatorEntry>& all) {
                                       x_icp_published, "x_icp"));
   all.push_back(entry<ConstrainedLio>(
       "dcreg", "lio with the update of DCReg: preconditioned by Schur complements", dcreg_on_lio));
+  all.push_back(entry<bievr::Bievr>("bievr",
+                                    "BIEVR-LIO: scans matched with images of the relief of walls",
+                                    [] { return bievr::Config(); }));
 }
 
 std::vector<EstimatorEntry> entries() {

@@ -82,7 +82,7 @@ TEST(SeriesStyle, ColorsStandOutFromTheirGround) {
   }
 }
 
-TEST(SeriesStyle, TheSecondTurnHasOtherDashes) {
+TEST(SeriesStyle, EachTurnHasOtherDashes) {
   std::set<std::pair<std::uint32_t, LinePattern>> looks;
   for (std::size_t i = 0; i < kSeriesStyles; ++i) {
     const SeriesStyle style = series_style(i);

@@ -152,7 +152,7 @@ std::set<std::string> configuration_keys() {
   const std::regex relative("estimators\\.[a-z_0-9]+\\.(.*)");
   std::istringstream stream(output_of(
       "config corridor --set 'run=[aims, aims_d, tfs, tfs_clean, tfs_plus, lio, leg, "
-      "fast_lio2, leg_kilo, lego_loam, lins, lins_published, lio_sam, loam, x_icp, dcreg, "
+      "fast_lio2, leg_kilo, lego_loam, lins, lins_published, lio_sam, loam, x_icp, dcreg, bievr, "
       "all=aims_d+degeneracy.enabled=true]'"));
   for (std::string line; std::getline(stream, line);) {
     std::smatch match;
