@@ -91,14 +91,16 @@ void describe(Fields& f, SurfaceConfig& c) {
 Result<void> validate(const SurfaceConfig& config) {
   const PanelConfig& panels = config.panels;
   if (panels.spacing > 0.0 && panels.width > panels.spacing) {
-    return failure(fmt::format("scene.surface.panels.width: expected at most "
-                               "scene.surface.panels.spacing ({} m), got {} m",
-                               panels.spacing, panels.width));
+    return failure(
+        fmt::format("scene.surface.panels.width: expected at most "
+                    "scene.surface.panels.spacing ({} m), got {} m",
+                    panels.spacing, panels.width));
   }
   if (config.shortest <= config.longest) return {};
-  return failure(fmt::format("scene.surface.shortest: expected at most scene.surface.longest "
-                             "({} m), got {} m",
-                             config.longest, config.shortest));
+  return failure(
+      fmt::format("scene.surface.shortest: expected at most scene.surface.longest "
+                  "({} m), got {} m",
+                  config.longest, config.shortest));
 }
 
 }  // namespace aims

@@ -67,8 +67,7 @@ void add_clutter(const CorridorConfig& config, const RampConfig& ramp, const Mat
 }
 
 /// Lamps at every multiple of the spacing.
-void add_lamps(const CorridorConfig& config, const Material& material,
-               std::vector<Solid>& solids) {
+void add_lamps(const CorridorConfig& config, const Material& material, std::vector<Solid>& solids) {
   const LampConfig& lamps = config.lamps;
   if (lamps.spacing <= 0.0) return;
   const Span along = extent(config);

@@ -48,6 +48,49 @@ void add_joints(const PanelConfig& panels, float offset, const Lanes& u,
   }
 }
 
+/// Hits and rays in the axes of a face.
+struct alignas(64) OnFace {
+  Lanes u, v;              ///< of the hits [m]
+  Lanes along_u, along_v;  ///< of the rays' directions [-]
+  Lanes cosine;            ///< of the incidence on the plane [-]
+};
+
+void project(const Eigen::Vector3f& u, const Eigen::Vector3f& v, const Eigen::Vector3f& normal,
+             const RayPacket& rays, const HitPacket& hits, OnFace& on) {
+  for (int i = 0; i < kRayPacketSize; ++i) {
+    const float x = rays.direction_x[i], y = rays.direction_y[i], z = rays.direction_z[i];
+    const float from_x = rays.origin_x[i], from_y = rays.origin_y[i], from_z = rays.origin_z[i];
+    const float distance = std::min(hits.distance[i], kFarthest);
+    on.along_u[i] = u.x() * x + u.y() * y + u.z() * z;
+    on.along_v[i] = v.x() * x + v.y() * y + v.z() * z;
+    on.cosine[i] = -(normal.x() * x + normal.y() * y + normal.z() * z);
+    on.u[i] = u.x() * from_x + u.y() * from_y + u.z() * from_z + distance * on.along_u[i];
+    on.v[i] = v.x() * from_x + v.y() * from_y + v.z() * from_z + distance * on.along_v[i];
+  }
+}
+
+/// Normals of the relief; that of the plane where the relief's faces away from the ray.
+void tilt(const Eigen::Vector3f& u, const Eigen::Vector3f& v, const Eigen::Vector3f& normal,
+          const OnFace& on, const SurfaceTable::Samples& at, HitPacket& hits) {
+  alignas(64) Lanes length;
+  for (int i = 0; i < kRayPacketSize; ++i) {
+    length[i] = 1.0F + at.slope_u[i] * at.slope_u[i] + at.slope_v[i] * at.slope_v[i];
+  }
+  // Of an array of Eigen, whose root is one instruction for several lanes.
+  Eigen::Map<Eigen::Array<float, kRayPacketSize, 1>, Eigen::Aligned64> roots(length.data());
+  roots = roots.sqrt();
+  for (int i = 0; i < kRayPacketSize; ++i) {
+    const float slope = at.slope_u[i] * on.along_u[i] + at.slope_v[i] * on.along_v[i];
+    const bool faces_ray = on.cosine[i] + slope > kLeastCosine * length[i];
+    const float tilt_u = faces_ray ? at.slope_u[i] : 0.0F;
+    const float tilt_v = faces_ray ? at.slope_v[i] : 0.0F;
+    const float scale = faces_ray ? 1.0F / length[i] : 1.0F;
+    hits.normal_x[i] = scale * (normal.x() - tilt_u * u.x() - tilt_v * v.x());
+    hits.normal_y[i] = scale * (normal.y() - tilt_u * u.y() - tilt_v * v.y());
+    hits.normal_z[i] = scale * (normal.z() - tilt_u * u.z() - tilt_v * v.z());
+  }
+}
+
 }  // namespace
 
 SurfaceRelief::SurfaceRelief(const SurfaceConfig& config, const Scene& scene, std::uint64_t seed)
@@ -119,51 +162,34 @@ void SurfaceRelief::sample(const Face& face, const Lanes& u, const Lanes& v,
 /// All lanes are computed, those from `first` to before `last` are on the face and written.
 void SurfaceRelief::displace_on(const Face& face, const RayPacket& rays, int first, int last,
                                 HitPacket& hits) const {
-  alignas(64) Lanes u, v, along_u, along_v, cosine, farther;
   const Eigen::Vector3f normal = normal_of(hits, first);
+  OnFace on;
+  project(face.u, face.v, normal, rays, hits, on);
   for (int i = 0; i < kRayPacketSize; ++i) {
-    const float x = rays.direction_x[i], y = rays.direction_y[i], z = rays.direction_z[i];
-    const float distance = std::min(hits.distance[i], kFarthest);
-    along_u[i] = face.u.x() * x + face.u.y() * y + face.u.z() * z;
-    along_v[i] = face.v.x() * x + face.v.y() * y + face.v.z() * z;
-    cosine[i] = -(normal.x() * x + normal.y() * y + normal.z() * z);
-    u[i] = face.u.x() * rays.origin_x[i] + face.u.y() * rays.origin_y[i] +
-           face.u.z() * rays.origin_z[i] + distance * along_u[i] + face.offset_u;
-    v[i] = face.v.x() * rays.origin_x[i] + face.v.y() * rays.origin_y[i] +
-           face.v.z() * rays.origin_z[i] + distance * along_v[i] + face.offset_v;
+    on.u[i] += face.offset_u;
+    on.v[i] += face.offset_v;
   }
   SurfaceTable::Samples at;
-  sample(face, u, v, at);
+  sample(face, on.u, on.v, at);
+  alignas(64) Lanes farther;
   for (int i = 0; i < kRayPacketSize; ++i) {
-    farther[i] =
-        step_to(at.height[i], cosine[i], at.slope_u[i] * along_u[i] + at.slope_v[i] * along_v[i]);
-    u[i] += farther[i] * along_u[i];
-    v[i] += farther[i] * along_v[i];
+    const float slope = at.slope_u[i] * on.along_u[i] + at.slope_v[i] * on.along_v[i];
+    farther[i] = step_to(at.height[i], on.cosine[i], slope);
+    on.u[i] += farther[i] * on.along_u[i];
+    on.v[i] += farther[i] * on.along_v[i];
   }
-  sample(face, u, v, at);
-  alignas(64) Lanes tilted_x, tilted_y, tilted_z, length;
+  sample(face, on.u, on.v, at);
   for (int i = 0; i < kRayPacketSize; ++i) {
-    length[i] = 1.0F + at.slope_u[i] * at.slope_u[i] + at.slope_v[i] * at.slope_v[i];
+    const float slope = at.slope_u[i] * on.along_u[i] + at.slope_v[i] * on.along_v[i];
+    farther[i] += step_to(at.height[i] + farther[i] * on.cosine[i], on.cosine[i], slope);
   }
-  // Of an array of Eigen, whose root is one instruction for several lanes.
-  Eigen::Map<Eigen::Array<float, kRayPacketSize, 1>, Eigen::Aligned64> roots(length.data());
-  roots = roots.sqrt();
-  for (int i = 0; i < kRayPacketSize; ++i) {
-    const float slope = at.slope_u[i] * along_u[i] + at.slope_v[i] * along_v[i];
-    farther[i] += step_to(at.height[i] + farther[i] * cosine[i], cosine[i], slope);
-    const bool faces_ray = cosine[i] + slope > kLeastCosine * length[i];
-    const float tilt_u = faces_ray ? at.slope_u[i] : 0.0F;
-    const float tilt_v = faces_ray ? at.slope_v[i] : 0.0F;
-    const float scale = faces_ray ? 1.0F / length[i] : 1.0F;
-    tilted_x[i] = scale * (normal.x() - tilt_u * face.u.x() - tilt_v * face.v.x());
-    tilted_y[i] = scale * (normal.y() - tilt_u * face.u.y() - tilt_v * face.v.y());
-    tilted_z[i] = scale * (normal.z() - tilt_u * face.u.z() - tilt_v * face.v.z());
-  }
+  HitPacket moved;
+  tilt(face.u, face.v, normal, on, at, moved);
   for (int i = first; i < last; ++i) {
     hits.distance[i] += farther[i];
-    hits.normal_x[i] = tilted_x[i];
-    hits.normal_y[i] = tilted_y[i];
-    hits.normal_z[i] = tilted_z[i];
+    hits.normal_x[i] = moved.normal_x[i];
+    hits.normal_y[i] = moved.normal_y[i];
+    hits.normal_z[i] = moved.normal_z[i];
     hits.texture[i] = at.factor[i];
   }
 }

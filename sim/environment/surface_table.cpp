@@ -14,6 +14,9 @@ constexpr int kColumns = SurfaceTable::kColumns;
 constexpr int kRows = SurfaceTable::kRows;
 constexpr double kCell = 0.04;  ///< [m]
 constexpr float kLargest = 32767.0F;
+constexpr float kPerCell = 1.0F / SurfaceTable::kCell;
+
+using Lanes = SurfaceTable::Lanes;
 
 /// sin and cos of 2 pi `cycles` i / n + `phase` at the nodes i, times `amplitude`.
 struct Harmonic {
@@ -66,33 +69,10 @@ float largest_of(const std::vector<float>& nodes) {
   return largest;
 }
 
-}  // namespace
-
-SurfaceTable::SurfaceTable(const SurfaceConfig& config, std::uint64_t seed) {
-  const std::vector<float> heights =
-      gaussian_field(config.relief, config, rng(seed, "scene.relief"));
-  std::vector<float> factors = gaussian_field(config.texture, config, rng(seed, "scene.texture"));
-  for (float& factor : factors) factor = std::exp(factor);
-  height_unit_ = std::max(largest_of(heights), 1e-9F) / kLargest;
-  factor_unit_ = largest_of(factors) / kLargest;
-  texels_.resize(static_cast<std::size_t>(kStride) * (kRows + 1));
-  for (int row = 0; row <= kRows; ++row) {
-    for (int column = 0; column <= kColumns; ++column) {
-      const std::size_t node =
-          static_cast<std::size_t>(row % kRows) * kColumns + column % kColumns;
-      const auto height = static_cast<std::int16_t>(std::lround(heights[node] / height_unit_));
-      const auto factor = static_cast<std::uint16_t>(std::lround(factors[node] / factor_unit_));
-      texels_[static_cast<std::size_t>(row) * kStride + column] =
-          static_cast<std::uint32_t>(factor) << 16U | static_cast<std::uint16_t>(height);
-    }
-  }
-}
-
-void SurfaceTable::sample(const Lanes& u, const Lanes& v, Samples& samples) const {
+/// The first nodes of the cells of sixteen points, and where the points lie in them, in [0, 1].
+void cells_of(const Lanes& u, const Lanes& v, std::array<std::int32_t, kRayPacketSize>& node,
+              Lanes& s, Lanes& t) {
   static_assert((kColumns & (kColumns - 1)) == 0 && (kRows & (kRows - 1)) == 0);
-  alignas(64) std::array<std::int32_t, kRayPacketSize> node, a, b, c, d;
-  alignas(64) Lanes s, t;
-  constexpr float kPerCell = 1.0F / SurfaceTable::kCell;
   for (int i = 0; i < kRayPacketSize; ++i) {
     const float x = u[i] * kPerCell;
     const float y = v[i] * kPerCell;
@@ -105,6 +85,42 @@ void SurfaceTable::sample(const Lanes& u, const Lanes& v, Samples& samples) cons
     const std::int32_t row = below & (kRows - 1);
     node[i] = row * kColumns + row + (left & (kColumns - 1));
   }
+}
+
+/// In units of the table.
+float height_of(std::int32_t texel) {
+  return static_cast<float>(static_cast<std::int32_t>(static_cast<std::uint32_t>(texel) << 16U) >>
+                            16);
+}
+
+/// In units of the table.
+float factor_of(std::int32_t texel) { return static_cast<float>(texel >> 16); }
+
+}  // namespace
+
+SurfaceTable::SurfaceTable(const SurfaceConfig& config, std::uint64_t seed) {
+  const std::vector<float> heights =
+      gaussian_field(config.relief, config, rng(seed, "scene.relief"));
+  std::vector<float> factors = gaussian_field(config.texture, config, rng(seed, "scene.texture"));
+  for (float& factor : factors) factor = std::exp(factor);
+  height_unit_ = std::max(largest_of(heights), 1e-9F) / kLargest;
+  factor_unit_ = largest_of(factors) / kLargest;
+  texels_.resize(static_cast<std::size_t>(kStride) * (kRows + 1));
+  for (int row = 0; row <= kRows; ++row) {
+    for (int column = 0; column <= kColumns; ++column) {
+      const std::size_t node = static_cast<std::size_t>(row % kRows) * kColumns + column % kColumns;
+      const auto height = static_cast<std::int16_t>(std::lround(heights[node] / height_unit_));
+      const auto factor = static_cast<std::uint16_t>(std::lround(factors[node] / factor_unit_));
+      texels_[static_cast<std::size_t>(row) * kStride + column] =
+          static_cast<std::uint32_t>(factor) << 16U | static_cast<std::uint16_t>(height);
+    }
+  }
+}
+
+void SurfaceTable::sample(const Lanes& u, const Lanes& v, Samples& samples) const {
+  alignas(64) std::array<std::int32_t, kRayPacketSize> node, a, b, c, d;
+  alignas(64) Lanes s, t;
+  cells_of(u, v, node, s, t);
   for (int i = 0; i < kRayPacketSize; ++i) {
     const std::uint32_t* texel = texels_.data() + node[i];
     a[i] = static_cast<std::int32_t>(texel[0]);
@@ -112,23 +128,18 @@ void SurfaceTable::sample(const Lanes& u, const Lanes& v, Samples& samples) cons
     c[i] = static_cast<std::int32_t>(texel[kStride]);
     d[i] = static_cast<std::int32_t>(texel[kStride + 1]);
   }
-  const auto height = [](std::int32_t texel) {
-    return static_cast<float>(static_cast<std::int32_t>(static_cast<std::uint32_t>(texel) << 16U) >>
-                              16);
-  };
-  const auto factor = [](std::int32_t texel) { return static_cast<float>(texel >> 16); };
   for (int i = 0; i < kRayPacketSize; ++i) {
-    const float h_a = height(a[i]), h_c = height(c[i]);
-    const float lower = height(b[i]) - h_a;
-    const float upper = height(d[i]) - h_c;
+    const float h_a = height_of(a[i]), h_c = height_of(c[i]);
+    const float lower = height_of(b[i]) - h_a;
+    const float upper = height_of(d[i]) - h_c;
     const float below = h_a + s[i] * lower;
     const float rise = h_c + s[i] * upper - below;
     samples.height[i] = height_unit_ * (below + t[i] * rise);
     samples.slope_u[i] = height_unit_ * kPerCell * (lower + t[i] * (upper - lower));
     samples.slope_v[i] = height_unit_ * kPerCell * rise;
-    const float f_a = factor(a[i]), f_c = factor(c[i]);
-    const float near = f_a + s[i] * (factor(b[i]) - f_a);
-    const float far = f_c + s[i] * (factor(d[i]) - f_c);
+    const float f_a = factor_of(a[i]), f_c = factor_of(c[i]);
+    const float near = f_a + s[i] * (factor_of(b[i]) - f_a);
+    const float far = f_c + s[i] * (factor_of(d[i]) - f_c);
     samples.factor[i] = factor_unit_ * (near + t[i] * (far - near));
   }
 }
