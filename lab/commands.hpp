@@ -11,5 +11,6 @@ namespace aims {
 void declare_fidelity(Command command, const std::filesystem::path& scenarios);
 void declare_fidelity_baselines(Command command, const std::filesystem::path& scenarios);
 void declare_order(Command command, const std::filesystem::path& scenarios);
+void declare_weak(Command command, const std::filesystem::path& scenarios);
 
 }  // namespace aims

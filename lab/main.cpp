@@ -16,6 +16,8 @@ constexpr std::array kCommands = {
     aims::CommandEntry{"order",
                        "Conditions under which adaptive weights help and the paper's order holds",
                        aims::declare_order},
+    aims::CommandEntry{"weak", "What holds a run along its weak axis, by source",
+                       aims::declare_weak},
 };
 
 }  // namespace

@@ -48,8 +48,9 @@ Uncertainty largest_uncertainty(const Eigen::Matrix3d& covariance) {
 }
 
 /// Smallest eigenvalue and condition number of the translation information with unknown rotation
-/// (its Schur complement).
-void record_localizability(const HalvesInformation& scan, ScanDiagnostics& diagnostics) {
+/// (its Schur complement), and the smallest eigenvalue of `real`, what of the scan counts as real.
+void record_localizability(const HalvesInformation& scan, const Matrix6& real,
+                           ScanDiagnostics& diagnostics) {
   diagnostics.weak_weight = weakest_confirmed_fraction(scan);
   diagnostics.weak_tilt = weakest_real_tilt(scan);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(position_information(scan.within),
@@ -57,6 +58,9 @@ void record_localizability(const HalvesInformation& scan, ScanDiagnostics& diagn
   diagnostics.smallest_eigenvalue = std::max(solver.eigenvalues()(0), 0.0);
   diagnostics.condition_number =
       solver.eigenvalues()(2) / std::max(diagnostics.smallest_eigenvalue, 1e-9);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> of_real(position_information(real),
+                                                               Eigen::EigenvaluesOnly);
+  diagnostics.weak_information = std::max(of_real.eigenvalues()(0), 0.0);
 }
 
 /// Whether the pose changed by more than `rotation` [rad] or `position` [m].
@@ -282,7 +286,10 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
     matched_at_ = at;
     diagnostics.iterations = trial.iterations;
     diagnostics.converged = trial.converged;
-    record_localizability(scan_.halves, diagnostics);
+    record_localizability(
+        scan_.halves,
+        cross_validation_.enabled ? fraction_.applied_to(scan_.halves).matrix : scan_.halves.within,
+        diagnostics);
     if (leg_free != nullptr) diagnostics.C_IL_imu = leg_free_consistency(*leg_free, at);
     assess(predicted, at, diagnostics);
     const Linearization weighed = fused(part_, gamma_lidar_, at);

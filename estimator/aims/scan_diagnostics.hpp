@@ -46,6 +46,7 @@ struct ScanDiagnostics {
   double condition_number = kNotComputed;       ///< of the translation information
   double weak_weight = kNotComputed;            ///< real fraction of the information, weakest axis
   double weak_tilt = kNotComputed;              ///< of the planes towards the weakest axis [rad]
+  double weak_information = kNotComputed;       ///< smallest of the position as real [1/m^2]
   double leg_innovation = kNotComputed;         ///< norm of the last leg innovation [m/s]
   int leg_updates = 0;                          ///< since the last scan
   ImuNoiseDensity imu_noise;                    ///< before the update, estimated

@@ -22,6 +22,14 @@ SceneConfig corridor(double bump_height, double clutter_density) {
   return config;
 }
 
+/// The same with walls as they are built (`severity_9_relief`).
+SceneConfig rough_corridor() {
+  SceneConfig config = corridor(0.0, 0.0);
+  config.surface.relief = 0.0015;
+  config.surface.texture = 0.15;
+  return config;
+}
+
 /// Packets of a scan from one point: 16 neighbouring azimuths of one ring each.
 std::vector<RayPacket> scan_packets() {
   std::vector<RayPacket> packets;
@@ -147,11 +155,14 @@ void scan_with_truth(benchmark::State& state, const LidarConfig& sensor) {
 }
 
 BENCHMARK_CAPTURE(cast_rays, doors, corridor(0.0, 0.0))->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(cast_rays, doors_relief, rough_corridor())->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(cast_rays, doors_clutter, corridor(0.0, 1.0))->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(cast_rays, doors_bumps, corridor(0.02, 0.0))->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(scan, doors_ideal, corridor(0.0, 0.0), LidarConfig{})
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(scan, doors_field, corridor(0.0, 0.0), field_lidar())
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scan, doors_relief_field, rough_corridor(), field_lidar())
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(scan, doors_os1_128, corridor(0.0, 0.0), dense_lidar())
     ->Unit(benchmark::kMillisecond);

@@ -48,6 +48,24 @@ void describe(Fields& f, ReflectivityConfig& c) {
       {.unit = "-", .range = range, .meaning = "Diffuse reflectivity of clutter and parked cars."});
 }
 
+void describe(Fields& f, PanelConfig& c) {
+  f.number("spacing", c.spacing,
+           {.unit = "m",
+            .range = up_to(100.0),
+            .meaning = "Distance between joints of boards on walls; 0 for none.",
+            .source = "boards are 1.2 or 1.25 m wide"});
+  f.number("crown", c.crown,
+           {.unit = "m",
+            .range = in_range(0.0, 0.01),
+            .meaning = "Height of the filler over a joint above the boards.",
+            .source = "assumption; BS 8212 permits 3 mm under 0.45 m"});
+  f.number("width", c.width,
+           {.unit = "m",
+            .range = in_range(0.05, 2.0),
+            .meaning = "Width of the filler over a joint.",
+            .source = "finish coat: 0.25 m, at butt joints 0.45 m"});
+}
+
 void describe(Fields& f, SurfaceConfig& c) {
   f.number("relief", c.relief,
            {.unit = "m",
@@ -67,13 +85,22 @@ void describe(Fields& f, SurfaceConfig& c) {
            {.unit = "m",
             .range = in_range(0.15, 5.0),
             .meaning = "Longest wavelength of relief and texture."});
+  f.group("panels", c.panels);
 }
 
 Result<void> validate(const SurfaceConfig& config) {
+  const PanelConfig& panels = config.panels;
+  if (panels.spacing > 0.0 && panels.width > panels.spacing) {
+    return failure(
+        fmt::format("scene.surface.panels.width: expected at most "
+                    "scene.surface.panels.spacing ({} m), got {} m",
+                    panels.spacing, panels.width));
+  }
   if (config.shortest <= config.longest) return {};
-  return failure(fmt::format("scene.surface.shortest: expected at most scene.surface.longest "
-                             "({} m), got {} m",
-                             config.longest, config.shortest));
+  return failure(
+      fmt::format("scene.surface.shortest: expected at most scene.surface.longest "
+                  "({} m), got {} m",
+                  config.longest, config.shortest));
 }
 
 }  // namespace aims

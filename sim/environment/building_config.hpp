@@ -30,6 +30,13 @@ struct ReflectivityConfig {
   double clutter = 0.4;
 };
 
+/// Joints of boards on upright surfaces, all the same: a crown of filler over each.
+struct PanelConfig {
+  double spacing = 0.0;  ///< between joints [m]; 0: none
+  double crown = 0.001;  ///< height of the filler over the boards [m]
+  double width = 0.3;    ///< of the filler [m]
+};
+
 /// Walls, ceiling and floor as they are built: not quite flat, and not of one reflectivity. Both are
 /// Gaussian random fields, a sum of waves with lengths from `shortest` to `longest`. The variance per
 /// octave grows with the wavelength, as the tolerances of DIN 18202 do: for finished walls 3 mm
@@ -39,15 +46,17 @@ struct SurfaceConfig {
   double texture = 0.0;   ///< standard deviation of the logarithm of the reflectivity [-]
   double shortest = 0.3;  ///< wavelength [m]
   double longest = 3.0;   ///< wavelength [m]
+  PanelConfig panels;
 
-  bool is_plain() const { return relief == 0.0 && texture == 0.0; }
+  bool is_plain() const { return relief == 0.0 && texture == 0.0 && panels.spacing == 0.0; }
 };
 
 void describe(Fields& fields, DoorConfig& config);
 void describe(Fields& fields, ReflectivityConfig& config);
+void describe(Fields& fields, PanelConfig& config);
 void describe(Fields& fields, SurfaceConfig& config);
 
-/// Error when the shortest wave is longer than the longest.
+/// Error when the shortest wave is longer than the longest, or joints are wider than their spacing.
 Result<void> validate(const SurfaceConfig& config);
 
 /// Names of `WallSides` in a configuration.

@@ -66,6 +66,23 @@ void add_clutter(const CorridorConfig& config, const RampConfig& ramp, const Mat
   }
 }
 
+/// Lamps at every multiple of the spacing.
+void add_lamps(const CorridorConfig& config, const Material& material, std::vector<Solid>& solids) {
+  const LampConfig& lamps = config.lamps;
+  if (lamps.spacing <= 0.0) return;
+  const Span along = extent(config);
+  const double half = 0.5 * lamps.length;
+  for (auto i = std::lround(std::ceil((along.begin + half) / lamps.spacing));
+       static_cast<double>(i) * lamps.spacing + half <= along.end; ++i) {
+    const double x = static_cast<double>(i) * lamps.spacing;
+    Solid& lamp = solids.emplace_back(cross_box({}, {x - half, x + half}, 0.5 * lamps.width,
+                                                config.height - lamps.height,
+                                                config.height + kOverlap, material));
+    lamp.collides = false;
+    lamp.roof = true;
+  }
+}
+
 /// Half width of end walls and ceiling: they also cover the space behind glass.
 double closed_half_width(const CorridorConfig& config) {
   const double walls = outer_half_width(config.width, config.doors.depth);
@@ -207,6 +224,12 @@ Result<void> validate(const CorridorConfig& config) {
           min_distance, config.glass.backing_distance));
     }
   }
+  if (config.lamps.spacing > 0.0 && config.lamps.length >= config.lamps.spacing) {
+    return failure(fmt::format(
+        "scene.corridor.lamps.length: expected less than scene.corridor.lamps.spacing ({} m), got "
+        "{} m",
+        config.lamps.spacing, config.lamps.length));
+  }
   const double max_width = config.width - 0.2;
   if (config.clutter.density > 0.0 && config.clutter.free_width > max_width) {
     return failure(
@@ -231,6 +254,7 @@ std::vector<Solid> corridor_solids(const CorridorConfig& config, const RampConfi
   add_ends(config, config.height + ramp_rise(ramp), materials, solids);
   add_ceiling(config, ramp, materials, solids);
   add_clutter(config, ramp, materials.clutter, seed, solids);
+  add_lamps(config, materials.ceiling, solids);
   return solids;
 }
 

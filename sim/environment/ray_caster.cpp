@@ -111,23 +111,25 @@ void extract(const RTCRayHit16& packet, const RayPacket& rays, HitPacket& hits) 
   }
 }
 
-/// Moves the hits onto the relief of their surfaces.
-void displace(const SurfaceRelief& relief, const RayPacket& rays, HitPacket& hits) {
-  for (int i = 0; i < kRayPacketSize; ++i) {
-    if (hits.surface[i] < 0) continue;
-    const Eigen::Vector3f origin(rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]);
-    const Eigen::Vector3f direction(rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]);
-    const SurfaceRelief::Moved moved =
-        relief.moved({origin + hits.distance[i] * direction,
-                      direction,
-                      {hits.normal_x[i], hits.normal_y[i], hits.normal_z[i]},
-                      hits.surface[i]});
-    hits.distance[i] += moved.farther;
-    hits.normal_x[i] = moved.normal.x();
-    hits.normal_y[i] = moved.normal.y();
-    hits.normal_z[i] = moved.normal.z();
-    hits.texture[i] = moved.reflectivity;
-  }
+/// Moves the hit of a single ray onto the relief.
+RayHit displaced(const SurfaceRelief& relief, const Eigen::Vector3f& origin,
+                 const Eigen::Vector3f& direction, const RayHit& hit) {
+  RayPacket rays;
+  HitPacket hits;
+  hits.surface.fill(-1);
+  rays.origin_x[0] = origin.x();
+  rays.origin_y[0] = origin.y();
+  rays.origin_z[0] = origin.z();
+  rays.direction_x[0] = direction.x();
+  rays.direction_y[0] = direction.y();
+  rays.direction_z[0] = direction.z();
+  hits.distance[0] = static_cast<float>(hit.distance);
+  hits.normal_x[0] = static_cast<float>(hit.normal.x());
+  hits.normal_y[0] = static_cast<float>(hit.normal.y());
+  hits.normal_z[0] = static_cast<float>(hit.normal.z());
+  hits.surface[0] = hit.surface;
+  relief.displace(rays, hits);
+  return {hits.distance[0], {hits.normal_x[0], hits.normal_y[0], hits.normal_z[0]}, hit.surface};
 }
 
 }  // namespace
@@ -188,7 +190,7 @@ void RayCaster::cast(const RayPacket& rays, float max_distance, HitPacket& hits,
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect16(valid.data(), impl_->scene, &context, &packet);
   extract(packet, rays, hits);
-  if (impl_->relief) displace(*impl_->relief, rays, hits);
+  if (impl_->relief) impl_->relief->displace(rays, hits);
 }
 
 std::optional<RayHit> RayCaster::cast(const Eigen::Vector3d& origin,
@@ -218,10 +220,8 @@ std::optional<RayHit> RayCaster::cast(const Eigen::Vector3d& origin,
       Eigen::Vector3d(single.hit.Ng_x, single.hit.Ng_y, single.hit.Ng_z).normalized();
   if (normal.dot(direction) > 0.0) normal = -normal;
   const auto surface = static_cast<int>(single.hit.geomID);
-  if (!impl_->relief) return RayHit{single.ray.tfar, normal, surface};
-  const SurfaceRelief::Moved moved = impl_->relief->moved(
-      {from + single.ray.tfar * towards, towards, normal.cast<float>(), surface});
-  return RayHit{single.ray.tfar + moved.farther, moved.normal.cast<double>(), surface};
+  const RayHit hit{single.ray.tfar, normal, surface};
+  return impl_->relief ? displaced(*impl_->relief, from, towards, hit) : hit;
 }
 
 const std::vector<Material>& RayCaster::materials() const { return impl_->materials; }

@@ -35,6 +35,29 @@ void describe(Fields& f, ClutterConfig& c) {
             .meaning = "Width in the middle of the corridor without clutter."});
 }
 
+void describe(Fields& f, LampConfig& c) {
+  f.number("spacing", c.spacing,
+           {.unit = "m",
+            .range = up_to(1000.0),
+            .meaning = "Distance between the centres of lamps under the ceiling; 0 for none.",
+            .source = "guides of lighting: about the height of the ceiling"});
+  f.number("length", c.length,
+           {.unit = "m",
+            .range = in_range(0.05, 10.0),
+            .meaning = "Length of a lamp along the corridor.",
+            .source = "assumption"});
+  f.number("width", c.width,
+           {.unit = "m",
+            .range = in_range(0.02, 2.0),
+            .meaning = "Width of a lamp.",
+            .source = "assumption"});
+  f.number("height", c.height,
+           {.unit = "m",
+            .range = in_range(0.01, 0.5),
+            .meaning = "Distance by which a lamp protrudes from the ceiling.",
+            .source = "assumption"});
+}
+
 void describe(Fields& f, BumpConfig& c) {
   f.number(
       "height", c.height,
@@ -90,6 +113,7 @@ void describe(Fields& f, CorridorConfig& c) {
   f.group("doors", c.doors);
   f.group("pillars", c.pillars);
   f.group("clutter", c.clutter);
+  f.group("lamps", c.lamps);
   f.group("glass", c.glass);
 }
 

@@ -35,6 +35,14 @@ struct ClutterConfig {
   double free_width = 1.3;  ///< of the middle of the corridor, without clutter [m]
 };
 
+/// Equal lamps in a row under the ceiling, along the middle: visible, but without collisions.
+struct LampConfig {
+  double spacing = 0.0;  ///< between centres [m]; 0: none
+  double length = 1.2;   ///< along the corridor [m]
+  double width = 0.15;   ///< [m]
+  double height = 0.08;  ///< below the ceiling [m]
+};
+
 /// Smooth random unevenness of the floor.
 struct BumpConfig {
   double height = 0.0;              ///< between the lowest and the highest point [m]; 0: flat
@@ -56,10 +64,11 @@ struct CorridorConfig {
   double width = 2.2;    ///< between the walls [m]
   double height = 2.6;   ///< from floor to ceiling [m]
   EndWalls end_walls = EndWalls::kBoth;
-  std::vector<BendConfig> bends;  ///< in order; with any, no pillars, glass or ramp
+  std::vector<BendConfig> bends;  ///< in order; with any, no pillars, lamps, glass or ramp
   DoorConfig doors;
   PillarConfig pillars;
   ClutterConfig clutter;
+  LampConfig lamps;
   GlassConfig glass;
 };
 
@@ -84,6 +93,7 @@ struct SceneConfig {
 
 void describe(Fields& fields, PillarConfig& config);
 void describe(Fields& fields, ClutterConfig& config);
+void describe(Fields& fields, LampConfig& config);
 void describe(Fields& fields, BumpConfig& config);
 void describe(Fields& fields, BendConfig& config);
 void describe(Fields& fields, CorridorConfig& config);

@@ -3,106 +3,129 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace aims {
 namespace {
 
-constexpr int kWaves = 160;
 /// At smaller angles between ray and surface the relief would shade itself; hits then move as at
 /// this cosine of the incidence.
 constexpr float kLeastCosine = 0.03F;
-constexpr double kTurn = 2.0 * std::numbers::pi;
+/// Beyond it no relief is looked up [m].
+constexpr float kFarthest = 5000.0F;
+/// Of a face's normal against the vertical; below it the face is a wall [-].
+constexpr float kUpright = 0.5F;
 
-/// sin and cos of 2 pi `cycles` i / n at the nodes i, times `amplitude`, shifted by `phase`.
-struct Harmonic {
-  Harmonic(int cycles, int n, double amplitude, double phase) : cosine(n), sine(n) {
-    for (int i = 0; i < n; ++i) {
-      const double angle = kTurn * cycles * i / n + phase;
-      cosine[i] = static_cast<float>(amplitude * std::cos(angle));
-      sine[i] = static_cast<float>(amplitude * std::sin(angle));
-    }
+using Lanes = SurfaceTable::Lanes;
+
+Eigen::Vector3f normal_of(const HitPacket& hits, int lane) {
+  return {hits.normal_x[lane], hits.normal_y[lane], hits.normal_z[lane]};
+}
+
+bool on_one_face(const HitPacket& hits, int a, int b) {
+  return hits.surface[a] == hits.surface[b] && hits.normal_x[a] == hits.normal_x[b] &&
+         hits.normal_y[a] == hits.normal_y[b] && hits.normal_z[a] == hits.normal_z[b];
+}
+
+/// Step along the ray to a relief whose height at its present point is `above` the point's: the
+/// distance changes by cosine and slope.
+float step_to(float above, float cosine, float slope_along_ray) {
+  return -above / std::max(cosine + slope_along_ray, kLeastCosine);
+}
+
+/// Adds the crowns of the joints, (1 - q^2)^2 over their width with q = -1 to 1.
+void add_joints(const PanelConfig& panels, float offset, const Lanes& u,
+                SurfaceTable::Samples& samples) {
+  const auto crown = static_cast<float>(panels.crown);
+  const auto spacing = static_cast<float>(panels.spacing);
+  const auto per_width = static_cast<float>(2.0 / panels.width);
+  for (int i = 0; i < kRayPacketSize; ++i) {
+    const float panel = (u[i] + offset) / spacing;
+    const auto nearest = static_cast<std::int32_t>(panel + (panel < 0.0F ? -0.5F : 0.5F));
+    const float q = (panel - static_cast<float>(nearest)) * spacing * per_width;
+    const float rest = std::max(1.0F - q * q, 0.0F);
+    samples.height[i] += crown * rest * rest;
+    samples.slope_u[i] -= 4.0F * crown * per_width * q * rest;
   }
-  std::vector<float> cosine;
-  std::vector<float> sine;
+}
+
+/// Hits and rays in the axes of a face.
+struct alignas(64) OnFace {
+  Lanes u, v;              ///< of the hits [m]
+  Lanes along_u, along_v;  ///< of the rays' directions [-]
+  Lanes cosine;            ///< of the incidence on the plane [-]
 };
+
+void project(const Eigen::Vector3f& u, const Eigen::Vector3f& v, const Eigen::Vector3f& normal,
+             const RayPacket& rays, const HitPacket& hits, OnFace& on) {
+  for (int i = 0; i < kRayPacketSize; ++i) {
+    const float x = rays.direction_x[i], y = rays.direction_y[i], z = rays.direction_z[i];
+    const float from_x = rays.origin_x[i], from_y = rays.origin_y[i], from_z = rays.origin_z[i];
+    const float distance = std::min(hits.distance[i], kFarthest);
+    on.along_u[i] = u.x() * x + u.y() * y + u.z() * z;
+    on.along_v[i] = v.x() * x + v.y() * y + v.z() * z;
+    on.cosine[i] = -(normal.x() * x + normal.y() * y + normal.z() * z);
+    on.u[i] = u.x() * from_x + u.y() * from_y + u.z() * from_z + distance * on.along_u[i];
+    on.v[i] = v.x() * from_x + v.y() * from_y + v.z() * from_z + distance * on.along_v[i];
+  }
+}
+
+/// Normals of the relief; that of the plane where the relief's faces away from the ray.
+void tilt(const Eigen::Vector3f& u, const Eigen::Vector3f& v, const Eigen::Vector3f& normal,
+          const OnFace& on, const SurfaceTable::Samples& at, HitPacket& hits) {
+  alignas(64) Lanes length;
+  for (int i = 0; i < kRayPacketSize; ++i) {
+    length[i] = 1.0F + at.slope_u[i] * at.slope_u[i] + at.slope_v[i] * at.slope_v[i];
+  }
+  // Of an array of Eigen, whose root is one instruction for several lanes.
+  Eigen::Map<Eigen::Array<float, kRayPacketSize, 1>, Eigen::Aligned64> roots(length.data());
+  roots = roots.sqrt();
+  for (int i = 0; i < kRayPacketSize; ++i) {
+    const float slope = at.slope_u[i] * on.along_u[i] + at.slope_v[i] * on.along_v[i];
+    const bool faces_ray = on.cosine[i] + slope > kLeastCosine * length[i];
+    const float tilt_u = faces_ray ? at.slope_u[i] : 0.0F;
+    const float tilt_v = faces_ray ? at.slope_v[i] : 0.0F;
+    const float scale = faces_ray ? 1.0F / length[i] : 1.0F;
+    hits.normal_x[i] = scale * (normal.x() - tilt_u * u.x() - tilt_v * v.x());
+    hits.normal_y[i] = scale * (normal.y() - tilt_u * u.y() - tilt_v * v.y());
+    hits.normal_z[i] = scale * (normal.z() - tilt_u * u.z() - tilt_v * v.z());
+  }
+}
 
 }  // namespace
 
-PeriodicField::PeriodicField(double deviation, double shortest, double longest,
-                             RandomStream random) {
-  if (deviation == 0.0) return;
-  nodes_.resize(static_cast<std::size_t>(kColumns) * kRows, 0.0F);
-  double variance = 0.0;
-  for (int wave = 0; wave < kWaves; ++wave) {
-    const double length = shortest * std::pow(longest / shortest, random.uniform());
-    const double direction = random.uniform(0.0, kTurn);
-    const double phase = random.uniform(0.0, kTurn);
-    // Whole waves around, so that the field is periodic.
-    const auto along =
-        static_cast<int>(std::lround(kColumns * kCell / length * std::cos(direction)));
-    const auto up = static_cast<int>(std::lround(kRows * kCell / length * std::sin(direction)));
-    const double amplitude = std::sqrt(length);
-    if (along == 0 && up == 0) continue;
-    variance += 0.5 * amplitude * amplitude;
-    const Harmonic columns(along, kColumns, amplitude, phase);
-    const Harmonic rows(up, kRows, 1.0, 0.0);
-    for (int row = 0; row < kRows; ++row) {
-      float* node = nodes_.data() + static_cast<std::size_t>(row) * kColumns;
-      for (int i = 0; i < kColumns; ++i) {
-        node[i] += columns.cosine[i] * rows.cosine[row] - columns.sine[i] * rows.sine[row];
-      }
-    }
-  }
-  const auto scale = static_cast<float>(deviation / std::sqrt(variance));
-  for (float& node : nodes_) node *= scale;
-}
-
-PeriodicField::Sample PeriodicField::at(float u, float v) const {
-  if (nodes_.empty()) return {};
-  static_assert((kColumns & (kColumns - 1)) == 0 && (kRows & (kRows - 1)) == 0);
-  const float x = u / kCell;
-  const float y = v / kCell;
-  const float left = std::floor(x);
-  const float below = std::floor(y);
-  const float s = x - left;
-  const float t = y - below;
-  const int i = static_cast<int>(left) & (kColumns - 1);
-  const int j = static_cast<int>(below) & (kRows - 1);
-  const float* lower = nodes_.data() + static_cast<std::size_t>(j) * kColumns;
-  const float* upper = nodes_.data() + static_cast<std::size_t>((j + 1) & (kRows - 1)) * kColumns;
-  const int next = (i + 1) & (kColumns - 1);
-  const float a = lower[i], b = lower[next], c = upper[i], d = upper[next];
-  return {(1.0F - t) * (a + s * (b - a)) + t * (c + s * (d - c)),
-          ((1.0F - t) * (b - a) + t * (d - c)) / kCell,
-          ((1.0F - s) * (c - a) + s * (d - b)) / kCell};
-}
-
 SurfaceRelief::SurfaceRelief(const SurfaceConfig& config, const Scene& scene, std::uint64_t seed)
-    : heights_(config.relief, config.shortest, config.longest, rng(seed, "scene.relief")),
-      texture_(config.texture, config.shortest, config.longest, rng(seed, "scene.texture")) {
+    : table_(config, seed), panels_(config.panels) {
   RandomStream offsets = rng(seed, "scene.relief.offsets");
-  const auto add = [&](const Eigen::Matrix3d& R, const Eigen::Vector3d& half_extents, bool smooth) {
-    Box box;
-    box.smooth = smooth;
-    box.axes = R.cast<float>();
-    for (int normal = 0; normal < 3; ++normal) {
-      int u = (normal + 1) % 3;
-      int v = (normal + 2) % 3;
-      if (half_extents[v] > half_extents[u]) std::swap(u, v);  // u is the longer side
-      box.faces[normal] = {
-          box.axes.col(u), box.axes.col(v),
-          static_cast<float>(offsets.uniform(0.0, PeriodicField::kColumns) * PeriodicField::kCell),
-          static_cast<float>(offsets.uniform(0.0, PeriodicField::kRows) * PeriodicField::kCell)};
-    }
-    boxes_.push_back(box);
-  };
+  RandomStream joints = rng(seed, "scene.joints.offsets");
   for (const Solid& solid : scene.solids) {
     add(solid.T_world_solid.R(), solid.half_extents,
-        solid.shape != Shape::kBox || solid.material.return_cosine > 0.0);
+        solid.shape != Shape::kBox || solid.material.return_cosine > 0.0, offsets, joints);
   }
   const Eigen::Vector2d size = scene.floor.max_corner - scene.floor.min_corner;
-  add(Eigen::Matrix3d::Identity(), {size.x(), size.y(), 0.0}, false);
+  add(Eigen::Matrix3d::Identity(), {size.x(), size.y(), 0.0}, false, offsets, joints);
+}
+
+void SurfaceRelief::add(const Eigen::Matrix3d& R, const Eigen::Vector3d& half_extents, bool smooth,
+                        RandomStream& offsets, RandomStream& joints) {
+  Box box;
+  box.smooth = smooth;
+  box.axes = R.cast<float>();
+  for (int normal = 0; normal < 3; ++normal) {
+    int u = (normal + 1) % 3;
+    int v = (normal + 2) % 3;
+    if (half_extents[v] > half_extents[u]) std::swap(u, v);  // u is the longer side
+    Face& face = box.faces[normal];
+    face.u = box.axes.col(u);
+    face.v = box.axes.col(v);
+    face.offset_u =
+        static_cast<float>(offsets.uniform(0.0, SurfaceTable::kColumns) * SurfaceTable::kCell);
+    face.offset_v =
+        static_cast<float>(offsets.uniform(0.0, SurfaceTable::kRows) * SurfaceTable::kCell);
+    face.offset_of_joints = static_cast<float>(joints.uniform() * panels_.spacing);
+    face.has_panels = panels_.spacing > 0.0 && std::abs(box.axes(2, normal)) < kUpright &&
+                      std::abs(face.u.z()) < kUpright;
+  }
+  boxes_.push_back(box);
 }
 
 const SurfaceRelief::Face& SurfaceRelief::face_of(const Box& box,
@@ -112,27 +135,63 @@ const SurfaceRelief::Face& SurfaceRelief::face_of(const Box& box,
   return box.faces[static_cast<std::size_t>(face)];
 }
 
-SurfaceRelief::Moved SurfaceRelief::moved(const Hit& hit) const {
-  const Box& box = boxes_[static_cast<std::size_t>(hit.surface)];
-  if (box.smooth) return {0.0F, hit.normal, 1.0F};
-  const Face& face = face_of(box, hit.normal);
-  const float u = face.u.dot(hit.point) + face.offset_u;
-  const float v = face.v.dot(hit.point) + face.offset_v;
-  // A step along the ray changes the distance to the relief by cosine and slope.
-  const PeriodicField::Sample first = heights_.at(u, v);
-  const float along_u = face.u.dot(hit.direction);
-  const float along_v = face.v.dot(hit.direction);
-  const float cosine = -hit.normal.dot(hit.direction);
-  const auto step_of = [&](float height, const PeriodicField::Sample& at) {
-    return -height / std::max(cosine + at.slope_u * along_u + at.slope_v * along_v, kLeastCosine);
-  };
-  float farther = step_of(first.value, first);
-  const PeriodicField::Sample at = heights_.at(u + farther * along_u, v + farther * along_v);
-  farther += step_of(at.value + farther * cosine, at);
-  const Eigen::Vector3f tilted =
-      (hit.normal - at.slope_u * face.u - at.slope_v * face.v).normalized();
-  const bool faces_ray = -tilted.dot(hit.direction) > kLeastCosine;
-  return {farther, faces_ray ? tilted : hit.normal, std::exp(texture_.at(u, v).value)};
+void SurfaceRelief::displace(const RayPacket& rays, HitPacket& hits) const {
+  const HitPacket smooth = hits;
+  hits.texture.fill(1.0F);
+  for (int first = 0; first < kRayPacketSize;) {
+    int last = first + 1;
+    while (last < kRayPacketSize && on_one_face(smooth, first, last)) ++last;
+    const int surface = smooth.surface[first];
+    if (surface >= 0) {
+      const Box& box = boxes_[static_cast<std::size_t>(surface)];
+      if (!box.smooth) displace_on(face_of(box, normal_of(smooth, first)), rays, first, last, hits);
+    }
+    first = last;
+  }
+}
+
+void SurfaceRelief::sample(const Face& face, const Lanes& u, const Lanes& v,
+                           SurfaceTable::Samples& samples) const {
+  table_.sample(u, v, samples);
+  if (!face.has_panels) return;
+  alignas(64) Lanes along;
+  for (int i = 0; i < kRayPacketSize; ++i) along[i] = u[i] - face.offset_u;
+  add_joints(panels_, face.offset_of_joints, along, samples);
+}
+
+/// All lanes are computed, those from `first` to before `last` are on the face and written.
+void SurfaceRelief::displace_on(const Face& face, const RayPacket& rays, int first, int last,
+                                HitPacket& hits) const {
+  const Eigen::Vector3f normal = normal_of(hits, first);
+  OnFace on;
+  project(face.u, face.v, normal, rays, hits, on);
+  for (int i = 0; i < kRayPacketSize; ++i) {
+    on.u[i] += face.offset_u;
+    on.v[i] += face.offset_v;
+  }
+  SurfaceTable::Samples at;
+  sample(face, on.u, on.v, at);
+  alignas(64) Lanes farther;
+  for (int i = 0; i < kRayPacketSize; ++i) {
+    const float slope = at.slope_u[i] * on.along_u[i] + at.slope_v[i] * on.along_v[i];
+    farther[i] = step_to(at.height[i], on.cosine[i], slope);
+    on.u[i] += farther[i] * on.along_u[i];
+    on.v[i] += farther[i] * on.along_v[i];
+  }
+  sample(face, on.u, on.v, at);
+  for (int i = 0; i < kRayPacketSize; ++i) {
+    const float slope = at.slope_u[i] * on.along_u[i] + at.slope_v[i] * on.along_v[i];
+    farther[i] += step_to(at.height[i] + farther[i] * on.cosine[i], on.cosine[i], slope);
+  }
+  HitPacket moved;
+  tilt(face.u, face.v, normal, on, at, moved);
+  for (int i = first; i < last; ++i) {
+    hits.distance[i] += farther[i];
+    hits.normal_x[i] = moved.normal_x[i];
+    hits.normal_y[i] = moved.normal_y[i];
+    hits.normal_z[i] = moved.normal_z[i];
+    hits.texture[i] = at.factor[i];
+  }
 }
 
 }  // namespace aims

@@ -177,6 +177,65 @@ TEST(SurfaceRelief, TextureChangesTheReflectivityOnly) {
   EXPECT_NEAR(std::sqrt(squares / count), 0.2, 0.05);
 }
 
+SurfaceConfig boards() {
+  SurfaceConfig surface;
+  surface.panels.spacing = 1.25;
+  return surface;
+}
+
+// The crown c (1 - q^2)^2 over a joint of width w has slopes of mean square 512 c^2 / (105 w s) on
+// a wall with joints s apart.
+TEST(SurfaceRelief, JointsHaveTheSlopesOfTheirCrowns) {
+  const SurfaceConfig surface = boards();
+  const RayCaster caster(wall_with(surface));
+  const PanelConfig& panels = surface.panels;
+  double squares = 0.0;
+  double highest = 0.0;
+  int count = 0;
+  for (double x = -15.0; x < 15.0; x += 0.001, ++count) {
+    const auto hit = caster.cast({x, 0.0, 1.2}, Vector3d::UnitY());
+    squares += std::pow(hit->normal.x() / hit->normal.y(), 2);
+    highest = std::max(highest, 2.0 - hit->distance);
+    EXPECT_NEAR(hit->normal.z(), 0.0, 1e-6);
+  }
+  const double expected =
+      512.0 * panels.crown * panels.crown / (105.0 * panels.width * panels.spacing);
+  EXPECT_NEAR(squares / count, expected, 0.01 * expected);
+  EXPECT_NEAR(highest, panels.crown, 1e-5);
+}
+
+TEST(SurfaceRelief, JointsRepeatAtTheirSpacingOnWallsOnly) {
+  Scene scene = wall_with(boards());
+  const RayCaster caster(scene);
+  for (double x = -15.0; x < 10.0; x += 0.17) {
+    EXPECT_NEAR(height_at(caster, x, 1.0), height_at(caster, x + 1.25, 2.0), 2e-6);
+    EXPECT_FLOAT_EQ(caster.cast({x, 0.0, 1.0}, -Vector3d::UnitZ())->distance, 1.0);
+  }
+}
+
+TEST(SurfaceRelief, JointsWiderThanTheirSpacingAreRefused) {
+  SceneConfig config;
+  config.surface = boards();
+  config.surface.panels.width = 1.5;
+  const Result<void> checked = validate(config);
+  ASSERT_FALSE(checked);
+  EXPECT_NE(checked.error().message.find("scene.surface.panels.width"), std::string::npos);
+}
+
+TEST(SurfaceRelief, LampsHangUnderTheCeilingAtTheirSpacing) {
+  SceneConfig config;
+  config.corridor.lamps.spacing = 2.5;
+  const RayCaster caster(build_scene(config, 1));
+  const LampConfig& lamps = config.corridor.lamps;
+  for (double x = 0.0; x < 60.0; x += 0.07) {
+    const double apart = std::abs(x - 2.5 * std::round(x / 2.5));
+    if (std::abs(apart - 0.5 * lamps.length) < 0.01) continue;  // at its end
+    const double expected =
+        config.corridor.height - (apart < 0.5 * lamps.length ? lamps.height : 0.0);
+    EXPECT_NEAR(caster.cast({x, 0.0, 0.0}, Vector3d::UnitZ())->distance, expected, 1e-5) << x;
+  }
+}
+
 TEST(SurfaceRelief, WavesOfTheWrongOrderAreRefused) {
   SceneConfig config;
   config.surface.shortest = 2.0;

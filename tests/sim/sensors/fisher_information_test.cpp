@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include "sim/environment/ray_caster.hpp"
@@ -333,6 +334,29 @@ TEST(SimulatedTruth, HoldsTheInformationOfEveryDeliveredScan) {
   EXPECT_EQ(recorded, delivered);
   EXPECT_LT(recorded.size(), 29U);
   EXPECT_GT(recorded.size(), 10U);
+}
+
+// Beams along the normal of a wall with h = a sin(k x): each tells of x by its slope over the
+// noise, (a k cos(k x) / sigma)^2, and whole waves of N beams have N (a k)^2 / (2 sigma^2).
+TEST(FisherInformation, OfASinusoidalReliefIsTheSumOfItsSquaredSlopes) {
+  constexpr int kBeams = 4000;
+  constexpr double kAmplitude = 0.002;  // [m]
+  constexpr double kWaves = 25.0;
+  constexpr double kLength = 40.0;  // [m]
+  const double wavenumber = 2.0 * std::numbers::pi * kWaves / kLength;
+  ScanTruth scan;
+  for (int i = 0; i < kBeams; ++i) {
+    const double x = kLength * i / kBeams;
+    const double slope = kAmplitude * wavenumber * std::cos(wavenumber * x);
+    const Vector3d normal = Vector3d(-slope, -1.0, 0.0).normalized();
+    scan.points.push_back(Vector3d(x, 2.0, 0.0).cast<float>());
+    scan.normals.push_back(normal.cast<float>());
+    scan.cosines.push_back(static_cast<float>(-normal.y()));
+    scan.surfaces.push_back(0);
+  }
+  const ScanInformation result = scan_information(0, scan, {}, kSigma);
+  const double expected = kBeams * std::pow(kAmplitude * wavenumber, 2) / (2.0 * kSigma * kSigma);
+  EXPECT_NEAR(result.information(3, 3), expected, 1e-4 * expected);
 }
 
 }  // namespace
