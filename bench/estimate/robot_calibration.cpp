@@ -9,6 +9,7 @@
 
 #include "bench/metrics/chi_square.hpp"
 #include "estimator/aims/robot_prior.hpp"
+#include "recordings/source/recording_file.hpp"
 
 namespace aims {
 namespace {
@@ -153,6 +154,10 @@ std::vector<std::string> warnings_of(const RobotCalibration& calibration,
     if (each.inflation > 1.0) warnings.push_back(each.name + ": " + each.note);
   }
   return warnings;
+}
+
+bool is_recorded_table(const std::filesystem::path& file) {
+  return format_by_content(file) == RecordingFormat::kCsv;
 }
 
 }  // namespace aims

@@ -94,6 +94,36 @@ std::string turn_text(const Eigen::Quaterniond& rotation) {
                      axis.z());
 }
 
+/// Of attitudes that fit only when the numbers of one side are taken as w, x, y, z. `aligned`: the
+/// same pairs with the estimate aligned by its positions.
+std::optional<std::string> quaternion_order_hint(std::span<const PosePair> pairs,
+                                                 std::span<const PosePair> aligned,
+                                                 double scatter) {
+  if (degrees(scatter) <= kScatter) return std::nullopt;
+  const auto reordered = [](const Eigen::Quaterniond& q) {
+    return Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w());
+  };
+  const Eigen::Quaterniond Q =
+      aligned.front().estimate.rotation * pairs.front().estimate.rotation.conjugate();
+  for (const bool of_truth : {true, false}) {
+    std::vector<Eigen::Quaterniond> rotations;
+    for (const PosePair& each : pairs) {
+      const Eigen::Quaterniond& truth = each.truth.rotation;
+      const Eigen::Quaterniond& estimate = each.estimate.rotation;
+      rotations.push_back(of_truth ? reordered(truth).conjugate() * (Q * estimate)
+                                   : truth.conjugate() * (Q * reordered(estimate)));
+    }
+    double other = 0.0;
+    middle_of(rotations, other);
+    if (degrees(other) > kScatter || 3.0 * other > scatter) continue;
+    return fmt::format(
+        "the attitudes fit where {} quaternions are read as w, x, y, z: expected x, "
+        "y, z, w",
+        of_truth ? "the truth's" : "its");
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<std::string> stamp_unit_hint(const Trajectory& estimate, const Trajectory& truth) {
@@ -129,6 +159,7 @@ std::optional<std::string> body_frame_hint(const Trajectory& estimate, const Tra
   }
   double scatter = 0.0;
   const Eigen::Quaterniond middle = middle_of(rotations, scatter);
+  if (auto order = quaternion_order_hint(pairs, best, scatter)) return order;
   const double turned = degrees(middle.angularDistance(Eigen::Quaterniond::Identity()));
   if (turned < kTurned || degrees(scatter) > kScatter) return std::nullopt;
   const Eigen::Quaterniond q = snapped(middle);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 
 namespace aims {
 namespace {
@@ -65,6 +66,24 @@ std::optional<int> joint_of_name(std::string_view name, bool abad) {
   return std::nullopt;
 }
 
+namespace {
+
+/// The entries of an array without names, of which twelve different ones are listed.
+std::optional<JointOrder> order_of_indices(std::span<const std::string> listed, std::size_t size) {
+  JointOrder order{};
+  if (listed.size() != order.size()) return std::nullopt;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const char* const end = listed[i].data() + listed[i].size();
+    const auto [read, error] = std::from_chars(listed[i].data(), end, order[i]);
+    if (error != std::errc() || read != end || order[i] >= size) return std::nullopt;
+    const auto before = std::span(order).first(i);
+    if (std::ranges::find(before, order[i]) != before.end()) return std::nullopt;
+  }
+  return order;
+}
+
+}  // namespace
+
 std::optional<JointOrder> joint_order(std::span<const std::string_view> recorded,
                                       std::span<const std::string> configured, std::size_t size) {
   JointOrder order;
@@ -73,6 +92,7 @@ std::optional<JointOrder> joint_order(std::span<const std::string_view> recorded
   const bool abad = std::ranges::any_of(recorded, [](std::string_view name) {
     return holds_any(lower(name), {"abad", "abd"}) && !holds_any(lower(name), {"hip"});
   });
+  if (recorded.empty() && !configured.empty()) return order_of_indices(configured, size);
   const std::size_t named = std::min(recorded.size(), size);
   for (std::size_t i = 0; i < named; ++i) {
     std::optional<std::size_t> joint;

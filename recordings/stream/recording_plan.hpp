@@ -24,10 +24,11 @@ struct RecordingPlan {
   LegStreamConfig legs;
   JointRule joints;
   ContactRule contacts;
-  Pose T_truth_body;                                        ///< body pose in the frame of the truth
-  bool truth_is_of_body = true;                             ///< then its poses are used unchanged
-  Duration arrival_shift = 0;                               ///< added to record times
-  Time start = 0;                                           ///< earliest record time that was set
+  Pose T_truth_body;             ///< body pose in the frame of the truth
+  bool truth_is_of_body = true;  ///< then its poses are used unchanged
+  Duration arrival_shift = 0;    ///< added to record times
+  Time start = 0;                ///< earliest record time that was set
+  std::optional<Time> begin;     ///< record time before which there is an IMU alone: left out
   std::array<std::optional<Duration>, kRoleCount> latency;  ///< record time minus stamp, typically
   /// A message that is recorded earlier than its stamp and latency by more has a wrong record time.
   Duration max_early = kSecond / 2;

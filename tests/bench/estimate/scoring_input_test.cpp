@@ -227,6 +227,29 @@ TEST_F(ScoringInputs, StampsOfAnotherUnitAreNamedAndRead) {
   EXPECT_LT(*score_trajectories(*read_scoring_input(request))->estimates[0].scores.ate_m, 1e-12);
 }
 
+TEST_F(ScoringInputs, QuaternionsWithWFirstAreNamedOnEitherSide) {
+  // x y z w of the text are w x y z of the pose.
+  Trajectory written = bend();
+  for (StampedPose& each : written) {
+    const Eigen::Quaterniond q = each.pose.rotation;
+    each.pose.rotation = Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y());
+  }
+  const std::string w_first = file("w_first.tum", tum_text(written));
+  ScoringRequest of_truth = plain(), of_estimate = plain();
+  of_truth.truth = w_first;
+  of_estimate.estimates = {w_first};
+  for (const auto& [request, whose] : {std::pair(of_truth, "the truth's quaternions"),
+                                       std::pair(of_estimate, "its quaternions")}) {
+    const auto scored = score_trajectories(*read_scoring_input(request));
+    ASSERT_TRUE(scored);
+    const auto hint = std::ranges::find_if(scored->notes, [](const std::string& note) {
+      return note.find("are read as w, x, y, z") != std::string::npos;
+    });
+    ASSERT_NE(hint, scored->notes.end());
+    EXPECT_NE(hint->find(whose), std::string::npos) << *hint;
+  }
+}
+
 TEST_F(ScoringInputs, ATurnedBodyFrameIsNamedWithTheExtrinsicThatCorrectsIt) {
   const Pose T_body_estimate = {so3_exp(Eigen::Vector3d(0.0, 0.0, 0.5 * std::numbers::pi)),
                                 Eigen::Vector3d::Zero()};
