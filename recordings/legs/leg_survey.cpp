@@ -128,11 +128,13 @@ void LegSurvey::add_contacts(const MessageView& message, const std::string& type
 void LegSurvey::add_joint_motion(const MessageView& message, Time record_time) {
   const Time stamp = header_stamp(message, record_time);
   const Time time = stamp == 0 ? record_time : stamp;
-  if (const auto unnamed = unnamed_joints_at(message, joint_rule_)) {
-    return order_finder_.add_joints(time, unnamed->angles, unnamed->rates);
-  }
+  // Names that are configured or recorded go first.
   const auto joints = joints_at(message, record_time, joint_rule_);
-  if (!joints) return;
+  if (!joints) {
+    const auto unnamed = unnamed_joints_at(message, joint_rule_);
+    if (unnamed) order_finder_.add_joints(time, unnamed->angles, unnamed->rates);
+    return;
+  }
   const auto& q = joints->position;
   std::vector<double> rates;
   if (joints->velocity) rates.assign(joints->velocity->begin(), joints->velocity->end());

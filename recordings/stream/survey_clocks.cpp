@@ -103,7 +103,8 @@ Duration RecordingSurvey::latency_of(const Seen& each, const std::optional<Clock
   if (!step) return early_latency(each.latencies);
   std::vector<Duration> before;
   for (std::size_t i = 0; i < each.stamps.size(); ++i) {
-    if (each.stamps[i] < step->stamp) before.push_back(each.latencies[i]);
+    // What was on its way at the step is recorded after it.
+    if (each.stamps[i] < step->stamp - kMaxDisorder) before.push_back(each.latencies[i]);
   }
   return before.empty() ? early_latency(each.latencies) + step->back
                         : early_latency(std::move(before));

@@ -309,6 +309,27 @@ class TableReader {
 
 }  // namespace
 
+namespace {
+
+/// Whether a comment in front of rows of so many numbers names columns of another order or unit.
+bool names_other_order(std::string_view text, std::size_t count) {
+  while (!text.empty()) {
+    const std::string_view line = take_line(text);
+    if (!is_comment(line)) return false;
+    const auto cells = cells_of(line, ' ');
+    if (names_degrees(cells)) return true;
+    const auto named = cells.size() == count ? named_columns(cells) : std::nullopt;
+    if (!named) continue;
+    const PoseColumns usual = ordered_columns(count, false);
+    return named->stamp != usual.stamp || named->position != usual.position ||
+           named->position_decimals != 0 ||
+           (named->quaternion_xyzw && named->quaternion_xyzw != usual.quaternion_xyzw);
+  }
+  return false;
+}
+
+}  // namespace
+
 bool is_pose_table(std::string_view text) {
   const std::size_t feed = std::min(text.find('\n'), text.size());
   const std::size_t carriage = text.find('\r');
@@ -321,6 +342,7 @@ bool is_pose_table(std::string_view text) {
   if (count != kPositionColumns && count != kColumns && count != 12) return true;
   if (!std::ranges::all_of(words, [](auto word) { return parse_number(word, false).has_value(); }))
     return true;
+  if (names_other_order(text, count)) return true;
   return count != 12 && unit_by_digits(words[0]) != StampUnit::kSeconds;
 }
 

@@ -254,6 +254,8 @@ TEST_F(TrajectoryFiles, ColumnsAreFoundByTheirNames) {
       "1700000001005 1 2 -3 0 0 0.6 0.8\n",
       "1700000001005000000 1 2 -3 0.8 0 0 0.6\n",
       "% a comment\n1700000001.005 1 2 -3 0 0 0.6 0.8\n",
+      "# timestamp tx ty tz qw qx qy qz\n1700000001.005 1 2 -3 0.8 0 0 0.6\n",
+      "# timestamp_s id x y z\n1700000001.005 1 2 -3 0 0 0.6 0.8\n",  // Hilti 2023
       "// a comment\n1700000001.005 1 2 -3 0 0 0.6 0.8 # and one more\n",
       "1700000001.005 1 2 -3 0 0 0.6 0.8\r1700000002 1 2 -3 0 0 0.6 0.8\r"};
   for (const std::string& text : texts) {
