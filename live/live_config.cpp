@@ -54,7 +54,7 @@ Result<LiveConfig> load_live_config(const LiveOptions& options) {
   if (!options.config.empty()) {
     auto ok = load_config(options.config, config, &assigned);
     if (!ok) return tl::unexpected(ok.error());
-    find_calibrations(config.recording, options.config.parent_path());
+    find_calibrations(config.recording, std::filesystem::path(options.config).parent_path());
   }
   std::vector<std::string> overrides;
   if (!options.calibration.empty()) {
