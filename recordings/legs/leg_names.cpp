@@ -45,10 +45,16 @@ bool is_foot(std::string_view name) { return holds_any(lower(name), {"foot", "to
 
 std::optional<int> leg_of_name(std::string_view name) {
   const std::vector<std::string> each = words(lower(name));
-  if (has_any(each, {"fl", "lf"})) return 0;
-  if (has_any(each, {"fr", "rf"})) return 1;
-  if (has_any(each, {"rl", "lr", "lh", "hl", "bl"})) return 2;
-  if (has_any(each, {"rr", "rh", "hr", "br"})) return 3;
+  if (has_any(each, {"fl", "lf", "frontleft", "leftfront"})) return 0;
+  if (has_any(each, {"fr", "rf", "frontright", "rightfront"})) return 1;
+  if (has_any(each, {"rl", "lr", "lh", "hl", "bl", "rearleft", "leftrear", "hindleft", "lefthind",
+                     "backleft", "leftback"})) {
+    return 2;
+  }
+  if (has_any(each, {"rr", "rh", "hr", "br", "rearright", "rightrear", "hindright", "righthind",
+                     "backright", "rightback"})) {
+    return 3;
+  }
   const bool front = has_any(each, {"front", "fore"});
   const bool rear = has_any(each, {"rear", "hind", "back"});
   const bool left = has_any(each, {"left"});
@@ -59,10 +65,13 @@ std::optional<int> leg_of_name(std::string_view name) {
 
 std::optional<int> joint_of_name(std::string_view name, bool abad) {
   const std::string text = lower(name);
-  if (holds_any(text, {"kfe", "calf", "knee", "kn", "shank", "lower"})) return 2;
-  if (holds_any(text, {"hfe", "thigh", "hip_y", "hip_pitch", "hip_fe", "hy", "upper"})) return 1;
+  if (holds_any(text, {"kfe", "calf", "knee", "kn", "shank", "lower", "tibia", "elbow"})) return 2;
+  if (holds_any(text, {"hfe", "thigh", "hip_y", "hipy", "hip_pitch", "hippitch", "hip_fe",
+                       "hip_flex", "hy", "upper", "femur", "shoulder rotation"})) {
+    return 1;
+  }
   if (abad && holds_any(text, {"hip"}) && !holds_any(text, {"abad", "abd"})) return 1;
-  if (holds_any(text, {"haa", "hip", "hx", "abd", "abad", "shoulder"})) return 0;
+  if (holds_any(text, {"haa", "hip", "hx", "abd", "abad", "shoulder", "coxa"})) return 0;
   return std::nullopt;
 }
 
