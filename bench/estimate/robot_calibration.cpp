@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "bench/metrics/chi_square.hpp"
+#include "core/files/text_file.hpp"
 #include "estimator/aims/robot_prior.hpp"
-#include "recordings/source/recording_file.hpp"
 
 namespace aims {
 namespace {
@@ -157,7 +157,9 @@ std::vector<std::string> warnings_of(const RobotCalibration& calibration,
 }
 
 bool is_recorded_table(const std::filesystem::path& file) {
-  return format_by_content(file) == RecordingFormat::kCsv;
+  constexpr std::size_t kMost = std::size_t{1} << 20;
+  const auto text = read_text_file(file, kMost);
+  return text && (text->starts_with("file:") || text->find("\nfile:") != std::string::npos);
 }
 
 }  // namespace aims

@@ -32,6 +32,7 @@ struct RecordingPlan {
   std::array<std::optional<Duration>, kRoleCount> latency;  ///< record time minus stamp, typically
   /// A message that is recorded earlier than its stamp and latency by more has a wrong record time.
   Duration max_early = kSecond / 2;
+  Duration max_hold = 60 * kSecond;         ///< of such a message, until its stamp
   std::array<Duration, kRoleCount> wait{};  ///< of messages, for those whose stamps move back more
   std::map<std::string, Duration> repeat_period;     ///< of topics that send each sample repeatedly
   std::array<bool, kRoleCount> stamped_by_record{};  ///< without stamps: record times are used

@@ -23,7 +23,6 @@ constexpr std::size_t kMaxDeliveries = 100'000;
 constexpr std::size_t kMaxBytes = std::size_t{256} << 20;
 /// Of a stamp 0 from the time at which its message was recorded, by the clock of the sensor.
 constexpr Duration kMaxUnset = kSecond;
-constexpr Duration kMaxHold = 60 * kSecond;  ///< of a message with a record time
 constexpr std::size_t kMaxHeldBytes = std::size_t{256} << 20;
 
 }  // namespace
@@ -243,7 +242,8 @@ Time RecordingReader::Impl::due(const BagMessage& message, const Channel& channe
   if (!stamp || !plan.latency[role]) return recorded + plan.wait[role];
   const Duration early = *stamp + *plan.latency[role] - recorded;
   const bool unset = recorded < kSetRecordTime && plan.start > kSetRecordTime;
-  if (early < plan.max_early || (early > kMaxHold && !unset)) return recorded + plan.wait[role];
+  if (early < plan.max_early || (early > plan.max_hold && !unset))
+    return recorded + plan.wait[role];
   ++counts["recorded_before_their_stamp"];
   return recorded + early + plan.wait[role];
 }

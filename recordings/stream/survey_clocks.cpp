@@ -18,8 +18,9 @@ constexpr Duration kMaxClockDifference = 5 * kSecond;
 constexpr Duration kMaxLatencyDifference = kSecond / 4;
 /// A step back of stamps that is no exchange of neighbours.
 constexpr Duration kMaxDisorder = kSecond / 5;
-constexpr Duration kMaxBetween = kSecond;  ///< of the samples before and after a step
-constexpr std::size_t kFirst = 20;         ///< messages whose latency is that before a step
+constexpr Duration kLongestStep = 100'000 * kSecond;  ///< a day, as of a wrong date
+constexpr Duration kMaxBetween = kSecond;             ///< of the samples before and after a step
+constexpr std::size_t kFirst = 20;  ///< messages whose latency is that before a step
 
 bool all_zero(const std::vector<Time>& stamps) {
   return stamps.size() >= 3 &&
@@ -166,7 +167,10 @@ void RecordingSurvey::decide_stamps(RecordingPlan& plan) {
   const auto densest =
       std::ranges::max_element(seen_, {}, [](const Seen& each) { return each.stamps.size(); });
   const auto step = clock_step_of(*densest);
-  if (step) plan.max_early = std::min(plan.max_early, step->back / 2);
+  if (step) {
+    plan.max_early = std::min(plan.max_early, step->back / 2);
+    plan.max_hold += std::min(step->back, kLongestStep);
+  }
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     const Role role = static_cast<Role>(i);
     const std::string& topic = topic_of(topics_, role);
