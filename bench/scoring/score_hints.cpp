@@ -2,6 +2,7 @@
 #include "bench/scoring/score_hints.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -105,6 +106,7 @@ std::optional<std::string> quaternion_order_hint(std::span<const PosePair> pairs
   };
   const Eigen::Quaterniond Q =
       aligned.front().estimate.rotation * pairs.front().estimate.rotation.conjugate();
+  std::vector<std::string> fitting;
   for (const bool of_truth : {true, false}) {
     std::vector<Eigen::Quaterniond> rotations;
     for (const PosePair& each : pairs) {
@@ -116,12 +118,14 @@ std::optional<std::string> quaternion_order_hint(std::span<const PosePair> pairs
     double other = 0.0;
     middle_of(rotations, other);
     if (degrees(other) > kScatter || 3.0 * other > scatter) continue;
-    return fmt::format(
-        "the attitudes fit where {} quaternions are read as w, x, y, z: expected x, "
-        "y, z, w",
-        of_truth ? "the truth's" : "its");
+    fitting.emplace_back(of_truth ? "the truth's" : "its");
   }
-  return std::nullopt;
+  if (fitting.empty()) return std::nullopt;
+  // Of a motion in the plane either side may be the one.
+  return fmt::format(
+      "the attitudes fit where {} quaternions are read as w, x, y, z: expected x, y, "
+      "z, w",
+      fmt::join(fitting, " or "));
 }
 
 }  // namespace
