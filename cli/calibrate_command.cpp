@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,7 +30,19 @@ struct CalibrateArguments {
 /// A scenario by its name or YAML file; all else is a recording.
 bool is_scenario(const std::string& source) {
   const std::string extension = fs::path(source).extension().string();
-  return extension == ".yaml" || extension == ".yml" || !fs::exists(source);
+  const bool yaml = extension == ".yaml" || extension == ".yml";
+  return !fs::exists(source) || (yaml && !is_recorded_table(source));
+}
+
+/// A recording counts once, however often it is named.
+Result<void> check_different(const std::vector<std::string>& sources) {
+  std::set<fs::path> seen;
+  for (const std::string& each : sources) {
+    std::error_code ignored;
+    if (is_scenario(each) || seen.insert(fs::weakly_canonical(each, ignored)).second) continue;
+    return failure(each + ": named twice, expected each recording once");
+  }
+  return {};
 }
 
 Result<std::vector<CalibrationRun>> runs_of_scenario(const CalibrateArguments& arguments,
@@ -118,6 +131,7 @@ Result<int> calibrate(const CalibrateArguments& arguments) {
   if (fs::exists(shared.out) && !shared.overwrite) {
     return failure(shared.out + ": exists; give another --out, or --overwrite to replace it");
   }
+  if (auto ok = check_different(arguments.sources); !ok) return tl::unexpected(ok.error());
   watch_interrupt();
   CalibrateArguments measuring = arguments;
   std::vector<std::string>& settings = measuring.shared.settings;

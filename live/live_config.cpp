@@ -10,6 +10,7 @@
 
 #include "core/files/yaml_config.hpp"
 #include "estimator/estimator_spec.hpp"
+#include "recordings/frames/configured_extrinsic.hpp"
 
 namespace aims {
 
@@ -53,6 +54,7 @@ Result<LiveConfig> load_live_config(const LiveOptions& options) {
   if (!options.config.empty()) {
     auto ok = load_config(options.config, config, &assigned);
     if (!ok) return tl::unexpected(ok.error());
+    find_calibrations(config.recording, std::filesystem::path(options.config).parent_path());
   }
   std::vector<std::string> overrides;
   if (!options.calibration.empty()) {

@@ -32,6 +32,12 @@ Result<void> check_topics(const LiveConfig& config, const RecordingSetup& setup)
 /// What spoils the estimate, and a calibration of another robot.
 std::vector<ReadingWarning> warnings_of(const LiveConfig& config, const RecordingSetup& setup) {
   std::vector<ReadingWarning> warnings = setup.warnings;
+  const Requirements needs = requirements_of(config.estimator, config.estimators);
+  if (needs.lidar || needs.imu || needs.legs) {
+    std::erase_if(warnings, [&needs](const ReadingWarning& each) {
+      return !each.concerns(needs.lidar, needs.legs || needs.joints);
+    });
+  }
   if (!config.calibration) return warnings;
   const auto found = misfits(config.calibration->sensors, sensors_of(setup.rig, {}));
   if (!found.empty()) {

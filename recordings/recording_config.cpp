@@ -23,6 +23,10 @@ void describe_frames(Fields& f, RecordingConfig& c) {
 }
 
 void describe_clouds(Fields& f, RecordingConfig& c) {
+  f.choice(
+      "point_unit", c.point_unit,
+      {{"m", PointUnit::kMetres}, {"cm", PointUnit::kCentimetres}, {"mm", PointUnit::kMillimetres}},
+      dimensionless("unit of the points' coordinates"));
   f.choice("point_time_unit", c.point_time_unit,
            {{"auto", PointTimeUnit::kAuto},
             {"s", PointTimeUnit::kSeconds},
@@ -60,8 +64,10 @@ void describe_legs(Fields& f, RecordingConfig& c) {
       "foot_names", c.foot_names,
       dimensionless("names of the array's entries, e.g. [FR, FL, RR, RL]; empty: FL, FR, RL, RR"));
   f.texts("joint_names", c.joint_names,
-          dimensionless("names of the 12 joints: per leg (FL, FR, RL, RR) abduction, hip, knee; "
-                        "empty: detected"));
+          dimensionless("names of the 12 joints, or their indices where none are recorded: per leg "
+                        "(FL, FR, RL, RR) abduction, hip, knee; empty: detected"));
+  f.choice("joint_unit", c.joint_unit, {{"rad", JointUnit::kRadians}, {"deg", JointUnit::kDegrees}},
+           dimensionless("unit of the joints' angles, and of their rates per second"));
   f.group("leg_geometry", c.leg_geometry);
   f.choice("foot_model", c.foot_model,
            {{"point", FootModel::kPoint}, {"rolling", FootModel::kRolling}},
@@ -85,7 +91,8 @@ void describe(Fields& f, TopicsConfig& c) {
 }
 
 void describe(Fields& f, ExtrinsicConfig& c) {
-  f.flag("override_tf", c.override_tf, dimensionless("use these values instead of the bag's tf"));
+  f.flag("override_tf", c.override_tf,
+         dimensionless("use these values instead of the bag's tf, also where all are 0"));
   f.vector("translation", c.translation,
            {.unit = "m", .range = in_range(-100.0, 100.0), .meaning = "in the IMU frame"});
   f.vector("rotation_rpy_deg", c.rotation_rpy_deg,
@@ -98,12 +105,15 @@ void describe(Fields& f, ExtrinsicConfig& c) {
   f.numbers("rotation_matrix", c.rotation_matrix,
             entries("9 numbers, row by row, in place of the angles"));
   f.numbers("quaternion_xyzw", c.quaternion_xyzw, entries("4 numbers, in place of the angles"));
+  f.numbers("quaternion_wxyz", c.quaternion_wxyz, entries("the same, w first"));
   f.numbers("matrix", c.matrix, entries("4x4 or 3x4, row by row, in place of all above"));
   f.choice("direction", c.direction,
            {{"sensor_in_imu", ExtrinsicDirection::kSensorInImu},
             {"imu_in_sensor", ExtrinsicDirection::kImuInSensor},
             {"lidar_in_imu", ExtrinsicDirection::kSensorInImu},
-            {"imu_in_lidar", ExtrinsicDirection::kImuInSensor}},
+            {"imu_in_lidar", ExtrinsicDirection::kImuInSensor},
+            {"base_in_imu", ExtrinsicDirection::kSensorInImu},
+            {"imu_in_base", ExtrinsicDirection::kImuInSensor}},
            dimensionless("whose pose the values are, in whose frame"));
   f.text("static_transform", c.static_transform,
          dimensionless("arguments of a static_transform_publisher, of either ROS"));

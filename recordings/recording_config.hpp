@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -33,23 +34,34 @@ struct ExtrinsicConfig {
   Eigen::Vector3d rotation_rpy_deg = Eigen::Vector3d::Zero();  ///< roll, pitch, yaw [deg]
   std::vector<double> rotation_matrix;  ///< 9 numbers, row by row, in place of the angles
   std::vector<double> quaternion_xyzw;  ///< 4 numbers, in place of the angles
+  std::vector<double> quaternion_wxyz;  ///< the same, w first
   std::vector<double> matrix;           ///< 16 or 12 numbers, row by row, in place of all above
   ExtrinsicDirection direction = ExtrinsicDirection::kSensorInImu;
   std::string static_transform;  ///< arguments of a ROS static_transform_publisher
   std::string file;              ///< of a calibration; see recordings/frames/calibration_file.hpp
   std::vector<std::string> file_frames;  ///< the IMU's and the sensor's name there
 
-  /// Whether tf is not asked.
-  bool is_given() const {
+  /// Whether numbers are stated; a translation and angles of zero need `override_tf`.
+  bool has_numbers() const {
     return override_tf || !matrix.empty() || !rotation_matrix.empty() || !quaternion_xyzw.empty() ||
-           !static_transform.empty() || !file.empty();
+           !quaternion_wxyz.empty() || !translation.isZero(0.0) || !rotation_rpy_deg.isZero(0.0);
   }
+  /// Whether tf is not asked.
+  bool is_given() const { return has_numbers() || !static_transform.empty() || !file.empty(); }
 };
 
 enum class ImuUnit { kAuto, kMetres, kGravities };
 
 /// Unit of the angular velocity in a recording.
 enum class GyroUnit { kRadians, kDegrees };
+/// Unit of the angles of the joints; of their rates, per second.
+enum class JointUnit { kRadians, kDegrees };
+/// [rad]
+constexpr double radians_per(JointUnit unit) {
+  return unit == JointUnit::kDegrees ? std::numbers::pi / 180.0 : 1.0;
+}
+/// Unit of the points' coordinates.
+enum class PointUnit { kMetres, kCentimetres, kMillimetres };
 enum class PointTimeUnit { kAuto, kSeconds, kMilliseconds, kMicroseconds, kNanoseconds };
 /// Instant of the scan that a cloud's header stamp marks.
 enum class CloudStamp { kAuto, kStart, kEnd };
@@ -71,6 +83,7 @@ struct RecordingConfig {
   ExtrinsicConfig T_imu_base;
   ImuUnit imu_unit = ImuUnit::kAuto;
   GyroUnit gyro_unit = GyroUnit::kRadians;
+  PointUnit point_unit = PointUnit::kMetres;
   PointTimeUnit point_time_unit = PointTimeUnit::kAuto;
   CloudStamp cloud_stamp = CloudStamp::kAuto;
   double lidar_rate = 10.0;     ///< scan rate, if points have no time [Hz]
@@ -84,6 +97,7 @@ struct RecordingConfig {
       20.0;  ///< smallest value of a foot in contact [N or the message's unit]
   std::vector<std::string> foot_names;   ///< of the array's entries, e.g. [FR, FL, RR, RL]
   std::vector<std::string> joint_names;  ///< of the 12 joints, leg by leg; empty: detected
+  JointUnit joint_unit = JointUnit::kRadians;
   /// Of the robot; by default what a simulated recording states, else that of the default robot.
   LegGeometry leg_geometry{0.188, 0.047, 0.08, 0.213, 0.213, 0.022};
   FootModel foot_model = FootModel::kPoint;  ///< for legs without odometry

@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "bench/metrics/scores.hpp"
-#include "core/files/atomic_file.hpp"
+#include "core/files/text_file.hpp"
 #include "core/files/waypoint_times.hpp"
 #include "core/files/yaml_config.hpp"
 #include "recordings/source/recording_file.hpp"
@@ -62,7 +62,7 @@ StatedSegments segments_beside(const std::filesystem::path& waypoint_times) {
   if (name == kName) {
     const fs::path config = folder / "config.yaml";
     if (!fs::is_regular_file(config, code)) return {};
-    const auto text = read_file(config);
+    const auto text = read_text_file(config);
     return {text ? segments_of_scenario(*text) : std::vector<std::string>(), config};
   }
   if (!name.ends_with(fmt::format(".{}", kName))) return {};

@@ -9,6 +9,7 @@
 #include "bench/estimate/python_classes.hpp"
 #include "core/files/yaml_config.hpp"
 #include "estimator/estimator_spec.hpp"
+#include "recordings/frames/configured_extrinsic.hpp"
 
 namespace aims {
 namespace {
@@ -28,11 +29,18 @@ void describe(Fields& f, PublishedScore& published) {
 
 void describe(Fields& f, DatasetTruth& truth) {
   f.texts("files", truth.files,
-          text("paths below the data set or the sequence, with {sequence} and *"));
+          text("paths below the data set or the sequence, with {sequence}, {name} (without its "
+               "date) and *"));
   f.text("topic", truth.topic, text("topic of the recording with the truth"));
   f.text("extrinsic", truth.extrinsic, text("'x y z qx qy qz qw': IMU in the body of the truth"));
   f.text("lever_arm", truth.lever_arm, text("'x y z' of the prism in the IMU frame, or estimate"));
+  f.texts("lever_arm_files", truth.lever_arm_files,
+          text("positions of the measured points in a frame of the body, by stamp"));
+  f.text("lever_arm_frame", truth.lever_arm_frame,
+         text("'x y z qx qy qz qw' of that frame in the IMU frame"));
   f.text("end_pose", truth.end_pose, text("pose of the end in the frame of the start"));
+  f.texts("end_pose_of", truth.end_pose_of,
+          text("parts of the names of the sequences that have that end; empty: of all"));
   f.number("time_offset_s", truth.time_offset_s,
            {.unit = "s", .range = within(4e9), .meaning = "added to the estimates' stamps"});
 }
@@ -60,6 +68,7 @@ Result<DatasetProfile> load_dataset_profile(const fs::path& file,
   if (!chosen) return tl::unexpected(chosen.error());
   read.run = std::move(chosen->of_file);
   if (auto ok = load_config(file, profile); !ok) return tl::unexpected(ok.error());
+  find_calibrations(read.recording, file.parent_path());
   read.run = std::move(chosen->all);
   if (auto ok = apply_overrides(profile, overrides); !ok) return tl::unexpected(ok.error());
   if (read.run.empty()) return failure("run: expected at least one name");

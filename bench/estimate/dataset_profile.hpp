@@ -21,14 +21,19 @@ struct PublishedScore {
 
 /// Where the truth of a sequence is, and how estimates meet it.
 struct DatasetTruth {
-  /// Files below the folder of the data set or of the sequence, with {sequence} and *; the first
-  /// that is there counts.
+  /// Files below the folder of the data set or of the sequence, with {sequence}, {name} (without
+  /// the date around it) and *; the first that is there counts.
   std::vector<std::string> files;
-  std::string topic;           ///< of the recording, where no file is found; "/tf:PARENT,CHILD"
-  std::string extrinsic;       ///< as --extrinsic of aims score
-  std::string lever_arm;       ///< as --lever-arm
-  std::string end_pose;        ///< as --end-pose; with `files` of those sequences that have none
-  double time_offset_s = 0.0;  ///< added to the stamps of the estimates [s]
+  std::string topic;      ///< of the recording, where no file is found; "/tf:PARENT,CHILD"
+  std::string extrinsic;  ///< as --extrinsic of aims score
+  std::string lever_arm;  ///< as --lever-arm
+  /// Files as `files`: where the measured points were in a frame of the body, by stamp; and the
+  /// pose of that frame in the IMU frame, "x y z qx qy qz qw".
+  std::vector<std::string> lever_arm_files;
+  std::string lever_arm_frame;
+  std::string end_pose;  ///< as --end-pose; with `files` of those sequences that have none
+  std::vector<std::string> end_pose_of;  ///< parts of the names of those sequences; empty: of all
+  double time_offset_s = 0.0;            ///< added to the stamps of the estimates [s]
 };
 
 /// A public data set: how it is read, scored as its authors score it, and what they report.

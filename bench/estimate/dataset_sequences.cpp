@@ -2,9 +2,11 @@
 #include "bench/estimate/dataset_sequences.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glob.h>
 
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
 #include "bench/estimate/scoring_input.hpp"
@@ -43,39 +45,86 @@ fs::path first_match(const fs::path& pattern) {
   return first;
 }
 
-/// `alone`: the sequence is the only one of the folder. Names without that of the sequence count in
-/// the folder of the sequence alone.
-std::string truth_of(const DatasetProfile& profile, const DatasetSequence& sequence,
-                     const fs::path& folder, bool alone) {
-  const std::string name = sequence.name;
-  for (std::string pattern : profile.truth.files) {
-    const bool of_sequence = alone || pattern.find("{sequence}") != std::string::npos;
-    for (std::size_t at = 0; (at = pattern.find("{sequence}", at)) != std::string::npos;) {
-      pattern.replace(at, 10, name);
-      at += name.size();
-    }
+/// The name without the date and time in front or behind it: "2021-07-01-10-37-38-quad-easy".
+std::string without_date(const std::string& name) {
+  constexpr std::string_view kDate = "0123456789-_";
+  constexpr std::size_t kLeast = 8;  // digits of a date
+  const auto digits = [](std::string_view text) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(text, [](unsigned char c) { return std::isdigit(c) != 0; }));
+  };
+  const std::size_t first = name.find_first_not_of(kDate), last = name.find_last_not_of(kDate);
+  if (first == std::string::npos) return name;
+  const std::size_t begin = digits(name.substr(0, first)) >= kLeast ? first : 0;
+  const bool dated = digits(name.substr(last + 1)) >= kLeast;
+  return name.substr(begin, (dated ? last + 1 : name.size()) - begin);
+}
+
+std::string filled(std::string pattern, std::string_view key, const std::string& name) {
+  for (std::size_t at = 0; (at = pattern.find(key, at)) != std::string::npos; at += name.size()) {
+    pattern.replace(at, key.size(), name);
+  }
+  return pattern;
+}
+
+/// The first of the files that is there. `alone`: the sequence is the only one of the folder. Names
+/// without that of the sequence count in the folder of the sequence alone.
+std::string file_of(const std::vector<std::string>& patterns, const DatasetSequence& sequence,
+                    const fs::path& folder, bool alone) {
+  for (const std::string& each : patterns) {
+    const bool of_sequence = alone || each.find("{sequence}") != std::string::npos ||
+                             each.find("{name}") != std::string::npos;
+    const std::string pattern =
+        filled(filled(each, "{sequence}", sequence.name), "{name}", without_date(sequence.name));
     for (const fs::path& below : {sequence.recording, folder}) {
       if (below == folder && !of_sequence) continue;
       const fs::path found = first_match(below / pattern);
       if (!found.empty()) return found.string();
     }
   }
-  const std::string& topic = profile.truth.topic;
-  return topic.empty() ? "" : fmt::format("{}:{}", sequence.recording.string(), topic);
+  return {};
+}
+
+void find_truth(const DatasetProfile& profile, const fs::path& folder, bool alone,
+                DatasetSequence& sequence) {
+  const DatasetTruth& truth = profile.truth;
+  sequence.truth = file_of(truth.files, sequence, folder, alone);
+  sequence.lever_arms = file_of(truth.lever_arm_files, sequence, folder, alone);
+  if (sequence.truth.empty() && !truth.topic.empty()) {
+    sequence.truth = fmt::format("{}:{}", sequence.recording.string(), truth.topic);
+  }
+  if (!sequence.truth.empty()) return;
+  const std::string names = fmt::format("{}", fmt::join(truth.files, ", "));
+  sequence.looked_for =
+      filled(filled(names, "{sequence}", sequence.name), "{name}", without_date(sequence.name));
+}
+
+/// Whether the profile states the end of that sequence.
+bool has_end(const DatasetTruth& truth, const std::string& sequence) {
+  if (truth.end_pose.empty()) return false;
+  return truth.end_pose_of.empty() ||
+         std::ranges::any_of(truth.end_pose_of, [&sequence](const std::string& part) {
+           return sequence.find(part) != std::string::npos;
+         });
 }
 
 /// Scores of the one estimate; none where the sequence has no truth.
 Result<void> score_sequence(const DatasetProfile& profile, const DatasetSequence& sequence,
                             const std::string& label, Trajectory trajectory,
                             EstimateResult& result) {
-  if (sequence.truth.empty() && profile.truth.end_pose.empty()) return {};
+  if (sequence.truth.empty() && !has_end(profile.truth, sequence.name)) return {};
   ScoringRequest request;
   request.truth = sequence.truth;
   if (request.truth.empty()) request.end_pose = profile.truth.end_pose;
   request.estimates = request.names = {label};
   request.in_memory[label] = std::move(trajectory);
   request.extrinsic = profile.truth.extrinsic;
-  request.lever_arm = request.truth.empty() ? "" : profile.truth.lever_arm;
+  if (!request.truth.empty()) request.lever_arm = profile.truth.lever_arm;
+  if (!sequence.lever_arms.empty()) {
+    request.lever_arm.clear();
+    request.lever_arms = sequence.lever_arms;
+    request.lever_frame = profile.truth.lever_arm_frame;
+  }
   request.time_offset_s = profile.truth.time_offset_s;
   request.scoring = profile.read.scoring;
   request.is_configured = true;
@@ -112,13 +161,13 @@ Result<std::vector<DatasetSequence>> dataset_sequences(const DatasetProfile& pro
                     folder.string()));
   }
   for (DatasetSequence& each : sequences) {
-    each.truth = truth_of(profile, each, folder, sequences.size() == 1);
+    find_truth(profile, folder, sequences.size() == 1, each);
   }
   return sequences;
 }
 
 std::string fingerprint(const DatasetSequence& sequence) {
-  std::vector<fs::path> files = {sequence.truth};
+  std::vector<fs::path> files = {sequence.truth, sequence.lever_arms};
   std::error_code ignored;
   if (fs::is_directory(sequence.recording, ignored)) {
     const auto inside = sorted_entries(sequence.recording);

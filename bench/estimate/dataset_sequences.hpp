@@ -16,6 +16,8 @@ struct DatasetSequence {
   std::string name;
   std::filesystem::path recording;  ///< a file, a folder of rosbag2, or of several recordings
   std::string truth;                ///< as --truth of aims score; empty: none was found
+  std::string lever_arms = {};      ///< file of the measured points in the body; empty: none
+  std::string looked_for = {};      ///< where no truth was found: the names that were tried
 };
 
 /// The sequences of a folder, by name: each recording, and each folder below that holds some, with

@@ -17,6 +17,7 @@
 #include "core/files/yaml_config.hpp"
 #include "core/stopwatch.hpp"
 #include "estimator/estimator_spec.hpp"
+#include "recordings/frames/configured_extrinsic.hpp"
 
 namespace aims {
 namespace {
@@ -141,8 +142,75 @@ Result<void> warn_of_misfit(const EstimateOptions& options, RecordingSetup& setu
   return {};
 }
 
+/// The warnings that concern an estimator; all of one whose needs are not known.
+std::vector<std::string> reasons_of(const EstimateConfig& config, const RecordingSetup& setup,
+                                    const std::string& name) {
+  Requirements needs;
+  for (const std::string& text : config.run) {
+    if (label_of(text) == name) needs = requirements_of(text, config.estimators);
+  }
+  const bool unknown = !needs.lidar && !needs.imu && !needs.legs;
+  std::vector<std::string> reasons;
+  for (const ReadingWarning& each : setup.warnings) {
+    const bool concerns = each.concerns(needs.lidar, needs.legs || needs.joints);
+    if (unknown || concerns) reasons.push_back(each.reason);
+  }
+  return reasons;
+}
+
+/// Warns of what the counts of the whole recording say of IMU and legs.
+void warn_of_counts(EstimateResult& result) {
+  constexpr double kFew = 0.05;      // of the IMU's samples
+  constexpr int kFewSeconds = 3;     // of a twist that may be a slip
+  constexpr double kMost = 0.5;      // of the samples; a trot has none without contact
+  constexpr double kDisagree = 0.2;  // of the samples
+  const double samples = result.recorded_s * result.setup.leg_rate_hz.value_or(0.0);
+  const auto count = [&result](const char* what) {
+    const auto found = result.counts.find(what);
+    return found == result.counts.end() ? 0 : found->second;
+  };
+  const auto warn = [&result](std::string reason, std::string text) {
+    result.setup.warnings.push_back({std::move(reason), std::move(text), WarnedSensor::kLegs});
+  };
+  const double imu_samples = result.recorded_s * result.setup.imu_rate_hz.value_or(0.0);
+  if (const int repeated = count("imu_stamp_not_increasing"); repeated > kFew * imu_samples) {
+    result.setup.warnings.push_back(
+        {"stamps of the IMU repeat or go backwards",
+         fmt::format("{} IMU samples have stamps that are not after the one before: they are "
+                     "dropped, and the others may be rounded",
+                     repeated)});
+  }
+  if (const int filled = count("legs_twist_by_pose_differences"); filled > 0) {
+    warn("twist of the leg odometry is zero",
+         fmt::format("{}: the twist is zero in {} messages whose pose moves: differences of the "
+                     "poses serve",
+                     result.setup.topics.leg_odometry, filled));
+  }
+  if (const int axes = count("legs_twist_in_odometry_axes_seconds"); axes > kFewSeconds) {
+    warn(
+        "twist of the leg odometry in the axes of its world",
+        fmt::format("{}: the twist is in the axes of the odometry's frame for {} s, expected those "
+                    "of the base: use joints and contacts (topics.leg_odometry: none) or correct "
+                    "the driver",
+                    result.setup.topics.leg_odometry, axes));
+  }
+  if (const int none = count("legs_no_contact"); none > kMost * samples && none > 0) {
+    warn("feet hardly ever in contact",
+         fmt::format("no foot is in contact in {} of {:.0f} samples of the legs: the last velocity "
+                     "serves there (contact_threshold, contact_detection)",
+                     none, samples));
+  }
+  if (const int apart = count("feet_in_contact_disagree"); apart > kDisagree * samples) {
+    warn("feet in contact disagree",
+         fmt::format("the feet in contact state different velocities in {} of {:.0f} samples: is "
+                     "the order of the joints and of the feet right (joint_names, foot_names), "
+                     "and the threshold of contact?",
+                     apart, samples));
+  }
+}
+
 /// Adds what the counts of the whole recording say to the warnings, and all of them to the health.
-void warn_in_health(EstimateResult& result) {
+void warn_in_health(const EstimateConfig& config, EstimateResult& result) {
   const auto early = result.counts.find("recorded_before_their_stamp");
   if (early != result.counts.end()) {
     result.setup.warnings.push_back(
@@ -152,8 +220,10 @@ void warn_in_health(EstimateResult& result) {
              "or not set yet; they arrive at their stamp and the usual delay",
              early->second)});
   }
-  if (result.setup.warnings.empty()) return;
+  warn_of_counts(result);
   for (EstimatorOutcome& each : result.estimators) {
+    const auto reasons = reasons_of(config, result.setup, each.name);
+    if (reasons.empty()) continue;
     HealthSummary& health = each.totals.health;
     if (health.worst == HealthState::kStarting && health.judged) continue;
     health.worst =
@@ -161,9 +231,7 @@ void warn_in_health(EstimateResult& result) {
     health.judged = true;
     health.degraded_s += std::exchange(health.healthy_s, 0.0);
     if (health.degraded_s + health.invalid_s == 0.0) health.degraded_s = result.recorded_s;
-    for (const ReadingWarning& warning : result.setup.warnings) {
-      health.reasons[warning.reason] = result.recorded_s;
-    }
+    for (const std::string& reason : reasons) health.reasons[reason] = result.recorded_s;
   }
 }
 
@@ -179,12 +247,15 @@ Result<void> check_topics(const EstimateConfig& config, const RecordingSetup& se
 
 /// Streams the recording to its end, or until the observer stops it, and fills in the truth and the
 /// estimators. Error when the folder cannot be written.
-Result<StreamEnd> stream_into_log(RecordingReader& reader, std::vector<TimedEstimator>& estimators,
+Result<StreamEnd> stream_into_log(const EstimateConfig& config, RecordingReader& reader,
+                                  std::vector<TimedEstimator>& estimators,
                                   const EstimateOptions& options,
                                   const std::function<bool()>& observed, ScanKeeper& scans,
                                   EstimateResult& result) {
-  std::vector<std::string> reasons;
-  for (const ReadingWarning& each : result.setup.warnings) reasons.push_back(each.reason);
+  std::vector<std::vector<std::string>> reasons;
+  for (const TimedEstimator& each : estimators) {
+    reasons.push_back(reasons_of(config, result.setup, each.name()));
+  }
   auto log = EstimateLog::create(options.folder, estimators, std::move(reasons));
   if (!log) return tl::unexpected(log.error());
   const bool in_memory = options.folder.empty();
@@ -238,6 +309,7 @@ Result<EstimateConfig> load_estimate_config(const std::filesystem::path& file,
   std::vector<AssignedKey> assigned;
   if (!file.empty()) {
     if (auto ok = load_config(file, config, &assigned); !ok) return tl::unexpected(ok.error());
+    find_calibrations(config.recording, file.parent_path());
   }
   config.run = std::move(chosen_run->all);
   if (auto ok = apply_overrides(config, overrides, &assigned); !ok) {
@@ -284,14 +356,14 @@ Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOpti
     return observer({to_seconds(reader->position()), length_s, stopwatch.seconds()});
   };
   ScanKeeper scans(result.summary.end - result.summary.start);
-  const auto end = stream_into_log(*reader, *estimators, options, observed, scans, result);
+  const auto end = stream_into_log(config, *reader, *estimators, options, observed, scans, result);
   if (!end) return tl::unexpected(end.error());
   result.complete = !end->stopped;
   result.broken = end->error;
   result.counts = reader->counts();
   result.recorded_s = to_seconds(reader->position());
   estimators->clear();
-  warn_in_health(result);
+  warn_in_health(config, result);
   set_failed_apart(result);
   auto shown = scans_to_show(result, scans);
   if (!shown) return tl::unexpected(shown.error());

@@ -26,9 +26,10 @@ std::vector<HealthRow> warned(std::span<const HealthRow> rows,
 
 Result<EstimateLog> EstimateLog::create(const std::filesystem::path& folder,
                                         const std::vector<TimedEstimator>& estimators,
-                                        std::vector<std::string> warnings) {
+                                        std::vector<std::vector<std::string>> warnings) {
   EstimateLog log(folder);
   log.warnings_ = std::move(warnings);
+  log.warnings_.resize(estimators.size());
   log.totals_.resize(estimators.size());
   if (folder.empty()) return log;
   for (const TimedEstimator& each : estimators) {
@@ -47,7 +48,7 @@ Result<void> EstimateLog::take(std::vector<TimedEstimator>& estimators) {
       estimators[i].pass();
       continue;
     }
-    const std::vector<HealthRow> health = warned(rows.health, warnings_);
+    const std::vector<HealthRow> health = warned(rows.health, warnings_[i]);
     rows.health = health;
     if (auto written = writers_[i].add(rows); !written) return written;
     estimators[i].forget();

@@ -22,11 +22,12 @@ inline constexpr const char* kTruthFile = "truth.tum";
 /// there is a folder, writes them.
 class EstimateLog {
  public:
-  /// An empty folder: nothing is written. `warnings`: reasons that every row of NAME.health.csv
-  /// states, which is then degraded at best; the totals are without them.
+  /// An empty folder: nothing is written. `warnings`: for each estimator, reasons that every
+  /// row of its NAME.health.csv states, which is then degraded at best; the totals are without
+  /// them. None: no reasons.
   static Result<EstimateLog> create(const std::filesystem::path& folder,
                                     const std::vector<TimedEstimator>& estimators,
-                                    std::vector<std::string> warnings = {});
+                                    std::vector<std::vector<std::string>> warnings = {});
 
   /// Takes the rows since the last call, of the same estimators. Error when they cannot be written.
   Result<void> take(std::vector<TimedEstimator>& estimators);
@@ -40,7 +41,7 @@ class EstimateLog {
   explicit EstimateLog(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   std::filesystem::path folder_;
-  std::vector<std::string> warnings_;
+  std::vector<std::vector<std::string>> warnings_;  ///< by estimator
   std::vector<EstimatorTotals> totals_;
   std::vector<RowWriter> writers_;  ///< one per estimator; none without a folder
   std::optional<AtomicFile> truth_;

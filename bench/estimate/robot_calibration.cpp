@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "bench/metrics/chi_square.hpp"
+#include "core/files/text_file.hpp"
 #include "estimator/aims/robot_prior.hpp"
 
 namespace aims {
@@ -153,6 +154,12 @@ std::vector<std::string> warnings_of(const RobotCalibration& calibration,
     if (each.inflation > 1.0) warnings.push_back(each.name + ": " + each.note);
   }
   return warnings;
+}
+
+bool is_recorded_table(const std::filesystem::path& file) {
+  constexpr std::size_t kMost = std::size_t{1} << 20;
+  const auto text = read_text_file(file, kMost);
+  return text && (text->starts_with("file:") || text->find("\nfile:") != std::string::npos);
 }
 
 }  // namespace aims

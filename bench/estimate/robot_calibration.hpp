@@ -30,4 +30,7 @@ RobotCalibration combined(std::span<const CalibrationRun> runs, const std::strin
 std::vector<std::string> warnings_of(const RobotCalibration& calibration,
                                      std::span<const CalibrationRun> runs);
 
+/// Whether a YAML file is a recording: the mapping of a table of comma-separated values.
+bool is_recorded_table(const std::filesystem::path& file);
+
 }  // namespace aims

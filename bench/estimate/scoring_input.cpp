@@ -13,9 +13,9 @@
 #include "bench/metrics/lever_arm.hpp"
 #include "bench/scoring/segment_list.hpp"
 #include "core/file_name.hpp"
-#include "core/files/atomic_file.hpp"
 #include "core/files/kitti.hpp"
 #include "core/files/number_lines.hpp"
+#include "core/files/text_file.hpp"
 #include "core/files/waypoint_times.hpp"
 #include "recordings/median.hpp"
 #include "recordings/topics/recording_topics.hpp"
@@ -96,6 +96,13 @@ std::string unique_name(const std::string& name, const std::vector<SourcedTrajec
 void note_body(const SourcedTrajectory& truth, const SourcedTrajectory& estimate,
                std::vector<std::string>& notes) {
   const std::string& body = estimate.body_frame;
+  const bool of_imu = truth.body_frame.empty() || truth.body_frame.find("imu") != std::string::npos;
+  if (body.empty() && !of_imu) {
+    notes.push_back(
+        fmt::format("the truth is of '{}', and {} names no frame: taken to be of it too "
+                    "(--extrinsic)",
+                    truth.body_frame, estimate.name));
+  }
   if (truth.body_frame.empty() || body.empty() || truth.body_frame == body) return;
   notes.push_back(
       fmt::format("{}: poses of '{}', while the truth's are of '{}'; --extrinsic takes "
@@ -159,7 +166,7 @@ Result<void> read_estimates(const ScoringRequest& request, std::vector<StampList
 Result<BagOrigin> origin_of(const ScoringRequest& request, const std::filesystem::path& bag,
                             std::vector<std::string>& notes) {
   if (request.waypoint_times.empty()) return bag.empty() ? BagOrigin{} : bag_origin(bag);
-  const auto text = read_file(request.waypoint_times);
+  const auto text = read_text_file(request.waypoint_times);
   if (!text) return tl::unexpected(text.error());
   auto waypoint_times = parse_waypoint_times(*text, request.waypoint_times.string());
   if (!waypoint_times) return tl::unexpected(waypoint_times.error());
@@ -243,7 +250,9 @@ bool is_constant_attitude(const ScoringInput& input) {
 void resolve_truth(const ScoringRequest& request, ScoringInput& input) {
   TruthContent& content = input.scoring.truth;
   const bool open = content == TruthContent::kAuto;
-  if (!input.truth.has_attitude || !request.lever_arm.empty()) content = TruthContent::kPosition;
+  if (!input.truth.has_attitude || !request.lever_arm.empty() || !request.lever_arms.empty()) {
+    content = TruthContent::kPosition;
+  }
   if (open && content != TruthContent::kPosition && is_constant_attitude(input)) {
     content = TruthContent::kPosition;
     input.notes.emplace_back("truth: its attitude never changes while the estimates turn");
@@ -265,6 +274,26 @@ void resolve_truth(const ScoringRequest& request, ScoringInput& input) {
   input.notes.push_back(fmt::format(
       "truth: {} control points, {:.1f} s apart: the estimates are compared at their stamps",
       truth.size(), to_seconds(middle)));
+}
+
+/// Moves the estimates to the points that were measured, each at its stamp.
+Result<void> apply_lever_arms(const ScoringRequest& request, ScoringInput& input) {
+  if (request.lever_arms.empty()) return {};
+  auto points = read_trajectory(request.lever_arms, {PoseRules::kStrict, "", {}});
+  if (!points) return tl::unexpected(points.error());
+  if (points->trajectory.empty()) {
+    return failure(request.lever_arms + ": expected the positions of control points, found none");
+  }
+  Result<Pose> frame = Pose();
+  if (!request.lever_frame.empty()) frame = pose_of("lever_frame", request.lever_frame, false);
+  if (!frame) return tl::unexpected(frame.error());
+  for (StampedPose& each : points->trajectory) {
+    each.pose.translation = *frame * each.pose.translation;
+  }
+  for (SourcedTrajectory& each : input.estimates) {
+    each.trajectory = moved_to_points(valid_part(each.trajectory), points->trajectory);
+  }
+  return {};
 }
 
 /// Moves the estimates to the point that the truth measures.
@@ -309,7 +338,7 @@ void note_axes(ScoringInput& input) {
 
 Result<std::vector<StampList>> stamps_of(const std::filesystem::path& times) {
   if (times.empty()) return std::vector<StampList>();
-  const auto text = read_file(times);
+  const auto text = read_text_file(times);
   if (!text) return tl::unexpected(text.error());
   auto stamps = parse_times(*text, times.string());
   if (!stamps) return tl::unexpected(stamps.error());
@@ -344,7 +373,9 @@ Result<ScoringInput> read_scoring_input(const ScoringRequest& request) {
   if (done && !request.end_pose.empty()) done = set_markers(request, input);
   if (!done) return tl::unexpected(done.error());
   resolve_truth(request, input);
-  if (done = apply_lever_arm(request, input); !done) return tl::unexpected(done.error());
+  done = apply_lever_arm(request, input);
+  if (done) done = apply_lever_arms(request, input);
+  if (!done) return tl::unexpected(done.error());
   note_axes(input);
   return input;
 }

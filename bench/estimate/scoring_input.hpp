@@ -25,6 +25,10 @@ struct ScoringRequest {
   /// "x y z": the point that the truth measures, e.g. a prism, in the frame of the estimates [m];
   /// "estimate": the one that fits best; empty: the frame itself.
   std::string lever_arm;
+  /// File of positions by stamp: where the points that the truth measures were in a frame of the
+  /// body, at the stamps of the truth, e.g. control points in the LiDAR's; empty: none.
+  std::string lever_arms;
+  std::string lever_frame;  ///< "x y z qx qy qz qw": pose of that frame; empty: the estimates'
   /// In place of a truth: the pose of the end in the frame of the start, "x y z qx qy qz qw", or
   /// "x y z", of which only the distance counts. Empty: there is a truth.
   std::string end_pose;

@@ -2,6 +2,7 @@
 #include "bench/metrics/lever_arm.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <vector>
 
 #include "bench/metrics/alignment.hpp"
@@ -87,6 +88,23 @@ Trajectory moved_to_point(Trajectory trajectory, const Eigen::Vector3d& p_body_p
     each.pose.translation += each.pose.rotation * p_body_point;
   }
   return trajectory;
+}
+
+Trajectory moved_to_points(const Trajectory& trajectory, const Trajectory& points) {
+  if (points.empty() || trajectory.empty()) return trajectory;
+  Trajectory whole = trajectory;
+  for (const StampedPose& each : points) {
+    const auto pose = pose_at(trajectory, each.stamp);
+    if (pose) whole.push_back({each.stamp, *pose});
+  }
+  std::ranges::stable_sort(whole, {}, &StampedPose::stamp);
+  const auto same = std::ranges::unique(whole, {}, &StampedPose::stamp);
+  whole.erase(same.begin(), same.end());
+  for (StampedPose& each : whole) {
+    const Time inside = std::clamp(each.stamp, points.front().stamp, points.back().stamp);
+    each.pose.translation = each.pose * pose_at(points, inside)->translation;
+  }
+  return whole;
 }
 
 }  // namespace aims

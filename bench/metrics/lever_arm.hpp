@@ -23,4 +23,9 @@ LeverArm fit_lever_arm(std::span<const PosePair> pairs, bool level);
 /// The trajectory of that point.
 Trajectory moved_to_point(Trajectory trajectory, const Eigen::Vector3d& p_body_point);
 
+/// The trajectory of a point that moves in the body, e.g. of a control point that a robot's LiDAR
+/// measured where it stood: `points` are its positions in the body by stamp, interpolated between.
+/// Each stamp of them within the trajectory becomes a pose of its own. No points: as it is.
+Trajectory moved_to_points(const Trajectory& trajectory, const Trajectory& points);
+
 }  // namespace aims

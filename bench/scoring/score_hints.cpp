@@ -2,6 +2,7 @@
 #include "bench/scoring/score_hints.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -94,6 +95,39 @@ std::string turn_text(const Eigen::Quaterniond& rotation) {
                      axis.z());
 }
 
+/// Of attitudes that fit only when the numbers of one side are taken as w, x, y, z. `aligned`: the
+/// same pairs with the estimate aligned by its positions.
+std::optional<std::string> quaternion_order_hint(std::span<const PosePair> pairs,
+                                                 std::span<const PosePair> aligned,
+                                                 double scatter) {
+  if (degrees(scatter) <= kScatter) return std::nullopt;
+  const auto reordered = [](const Eigen::Quaterniond& q) {
+    return Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w());
+  };
+  const Eigen::Quaterniond Q =
+      aligned.front().estimate.rotation * pairs.front().estimate.rotation.conjugate();
+  std::vector<std::string> fitting;
+  for (const bool of_truth : {true, false}) {
+    std::vector<Eigen::Quaterniond> rotations;
+    for (const PosePair& each : pairs) {
+      const Eigen::Quaterniond& truth = each.truth.rotation;
+      const Eigen::Quaterniond& estimate = each.estimate.rotation;
+      rotations.push_back(of_truth ? reordered(truth).conjugate() * (Q * estimate)
+                                   : truth.conjugate() * (Q * reordered(estimate)));
+    }
+    double other = 0.0;
+    middle_of(rotations, other);
+    if (degrees(other) > kScatter || 3.0 * other > scatter) continue;
+    fitting.emplace_back(of_truth ? "the truth's" : "its");
+  }
+  if (fitting.empty()) return std::nullopt;
+  // Of a motion in the plane either side may be the one.
+  return fmt::format(
+      "the attitudes fit where {} quaternions are read as w, x, y, z: expected x, y, "
+      "z, w",
+      fmt::join(fitting, " or "));
+}
+
 }  // namespace
 
 std::optional<std::string> stamp_unit_hint(const Trajectory& estimate, const Trajectory& truth) {
@@ -129,6 +163,7 @@ std::optional<std::string> body_frame_hint(const Trajectory& estimate, const Tra
   }
   double scatter = 0.0;
   const Eigen::Quaterniond middle = middle_of(rotations, scatter);
+  if (auto order = quaternion_order_hint(pairs, best, scatter)) return order;
   const double turned = degrees(middle.angularDistance(Eigen::Quaterniond::Identity()));
   if (turned < kTurned || degrees(scatter) > kScatter) return std::nullopt;
   const Eigen::Quaterniond q = snapped(middle);

@@ -58,7 +58,7 @@ JobResult result_of(const DatasetProfile& profile, const DatasetSequence& sequen
     job.sequence["truth"] = record.scores["truth"];
     notes.insert(notes.end(), result->scores->notes.begin(), result->scores->notes.end());
   } else {
-    notes.emplace_back("no truth: not scored");
+    notes.push_back(fmt::format("no truth: not scored; looked for {}", sequence.looked_for));
   }
   job.sequence["notes"] = notes;
   return job;

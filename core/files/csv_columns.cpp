@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
-#include "core/files/atomic_file.hpp"
 #include "core/files/number_lines.hpp"
+#include "core/files/text_file.hpp"
 #include "core/text.hpp"
 
 namespace aims {
@@ -194,7 +194,7 @@ Result<CsvColumns> CsvColumns::parse(std::string_view text, const std::string& n
 
 Result<CsvColumns> CsvColumns::read(const std::filesystem::path& file,
                                     std::span<const std::string> only) {
-  const auto text = read_file(file);
+  const auto text = read_text_file(file);
   if (!text) return tl::unexpected(text.error());
   return parse(*text, file.string(), only);
 }

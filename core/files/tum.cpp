@@ -9,6 +9,7 @@
 
 #include "core/files/atomic_file.hpp"
 #include "core/files/number_lines.hpp"
+#include "core/files/text_file.hpp"
 #include "core/text.hpp"
 
 namespace aims {
@@ -92,7 +93,7 @@ Result<void> write_tum(const std::filesystem::path& file, const Trajectory& traj
 }
 
 Result<Trajectory> read_tum(const std::filesystem::path& file, PoseRules rules) {
-  const auto text = read_file(file);
+  const auto text = read_text_file(file);
   if (!text) return tl::unexpected(text.error());
   return parse_tum(*text, file.string(), rules);
 }

@@ -14,11 +14,19 @@
 namespace aims {
 namespace {
 
-/// The scalar itself, or "[a, b]" of a sequence of scalars; nothing for anything deeper.
-std::optional<std::string> flow_text(const YAML::Node& value) {
+/// The scalar itself, or "[a, b]" of a sequence of scalars, where `rows` also of a list of such;
+/// nothing for anything deeper.
+std::optional<std::string> flow_text(const YAML::Node& value, bool rows = false) {
   if (value.IsScalar()) return value.Scalar();
   std::vector<std::string> entries;
   for (const auto& entry : value) {
+    if (rows && entry.IsSequence()) {
+      for (const auto& number : entry) {
+        if (!number.IsScalar()) return std::nullopt;
+        entries.push_back(number.Scalar());
+      }
+      continue;
+    }
     if (!entry.IsScalar()) return std::nullopt;
     entries.push_back(entry.Scalar());
   }
@@ -111,7 +119,7 @@ Result<void> YamlAssigner::assign_value(const Parameter& parameter, const std::s
   };
   if (is_sequence(parameter) != value.IsSequence()) return refuse();
   if (!value.IsSequence() && !value.IsScalar()) return refuse();
-  const auto text = flow_text(value);
+  const auto text = flow_text(value, parameter.kind == ParameterKind::kNumbers);
   if (!text || !parameter.assign(*text)) return refuse();
   return {};
 }

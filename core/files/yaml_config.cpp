@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/files/atomic_file.hpp"
+#include "core/files/text_file.hpp"
 #include "core/files/yaml_assigner.hpp"
 #include "core/files/yaml_document.hpp"
 #include "core/files/yaml_head.hpp"
@@ -58,7 +58,7 @@ Result<void> load_document(const std::string& text, const std::string& name,
 
 Result<void> load_file(const fs::path& file, const SettingTarget& target,
                        std::vector<fs::path> chain) {
-  const auto text = read_file(file, kLargestYaml);
+  const auto text = read_text_file(file, kLargestYaml);
   if (!text) return tl::unexpected(text.error());
   chain.push_back(fs::weakly_canonical(file));
   return load_document(*text, file.string(), target, chain);

@@ -16,7 +16,8 @@ namespace {
 constexpr std::size_t kMaxClouds = 60;
 constexpr std::size_t kMaxRanges = 100'000;
 /// Half of the points of no LiDAR on a robot are farther away [m].
-constexpr double kFarPoints = 400.0;
+constexpr double kFarPoints = 120.0;          ///< of half of the points, at most [m]
+constexpr double kFarInCentimetres = 1000.0;  ///< more than that is likely in mm
 /// Larger point times are not relative to the scan [ns].
 constexpr double kMaxRelativeTime = 5e9;
 
@@ -328,6 +329,24 @@ void CloudSurvey::decide_intensity(CloudReading& reading, ReadingNotes& notes) c
                               largest_intensity_, full));
 }
 
+/// The unit of the coordinates, which their ranges give away.
+void CloudSurvey::decide_unit(const RecordingConfig& config, CloudReading& reading,
+                              ReadingNotes& notes) const {
+  if (config.point_unit != PointUnit::kMetres) {
+    const bool centimetres = config.point_unit == PointUnit::kCentimetres;
+    reading.position_scale = centimetres ? 0.01 : 0.001;
+    notes.push_back(fmt::format("points in {} (recording.point_unit): converted to metres",
+                                centimetres ? "cm" : "mm"));
+  }
+  const double range = reading.position_scale * upper_median(ranges_).value_or(0.0);
+  if (range <= kFarPoints) return;
+  const std::string_view likely = range > kFarInCentimetres ? "mm" : "cm";
+  notes.warn("points not in metres",
+             fmt::format("half of the points are farther than {:.0f} m: points in {}? Then set "
+                         "recording.point_unit={}",
+                         range, likely, likely));
+}
+
 CloudReading CloudSurvey::decide(const RecordingConfig& config, ReadingNotes& notes) const {
   CloudReading reading;
   reading.clockwise = config.lidar_clockwise;
@@ -335,14 +354,7 @@ CloudReading CloudSurvey::decide(const RecordingConfig& config, ReadingNotes& no
   decide_stamp(config, reading, notes);
   rings_.decide(reading, notes);
   decide_intensity(reading, notes);
-  const double range = upper_median(ranges_).value_or(0.0);
-  if (range > kFarPoints) {
-    notes.warn(
-        "points not in metres",
-        fmt::format("half of the points are farther than {:.0f} m: points in mm? Coordinates "
-                    "are expected in metres: convert them in the driver",
-                    range));
-  }
+  decide_unit(config, reading, notes);
   return reading;
 }
 

@@ -46,6 +46,7 @@ class CloudSurvey {
   void note_azimuth_times(const CloudReading& reading, ReadingNotes& notes) const;
   void decide_stamp(const RecordingConfig& config, CloudReading& reading,
                     ReadingNotes& notes) const;
+  void decide_unit(const RecordingConfig& config, CloudReading& reading, ReadingNotes& notes) const;
   void decide_intensity(CloudReading& reading, ReadingNotes& notes) const;
   std::vector<Time> stamps() const;
   std::optional<Duration> firing_span(std::size_t field, double unit_ns) const;

@@ -58,8 +58,8 @@ struct Block {
   std::size_t count = 0;
   std::array<double, kBlock> x, y, z, time, ring, intensity;
 
-  Eigen::Vector3f position(std::size_t i) const {
-    return Eigen::Vector3d(x[i], y[i], z[i]).cast<float>();
+  Eigen::Vector3f position(std::size_t i, double scale) const {
+    return (scale * Eigen::Vector3d(x[i], y[i], z[i])).cast<float>();
   }
 };
 
@@ -149,7 +149,7 @@ double CloudDecoder::ring(const Block& block, std::size_t i, const LidarPoint& p
 void CloudDecoder::read_block(const Block& block, std::vector<LidarPoint>& points) {
   for (std::size_t i = 0; i < block.count; ++i) {
     LidarPoint point;
-    point.position = block.position(i);
+    point.position = block.position(i, reading_.position_scale);
     if (!point.position.allFinite()) {
       ++not_finite_;
       continue;

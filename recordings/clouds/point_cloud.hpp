@@ -38,6 +38,7 @@ struct CloudReading {
   int flipped_rings = 0;                ///< > 0: number of rings, of which ring 0 is the highest
   LidarRings rings;                     ///< none where rings are derived, or are lines
   std::vector<double> ring_elevations;  ///< ascending, for kElevation [rad]
+  double position_scale = 1.0;          ///< of the coordinates to metres
   std::string intensity_field;          ///< empty: none
   float intensity_scale = 1.0F;         ///< scales it to [0, 1]
 };

@@ -10,9 +10,9 @@
 #include <numbers>
 #include <utility>
 
-#include "core/files/atomic_file.hpp"
 #include "core/files/csv_columns.hpp"
 #include "core/files/number_lines.hpp"
+#include "core/files/text_file.hpp"
 #include "recordings/csv/csv_mapping.hpp"
 #include "recordings/messages/message_encoding.hpp"
 #include "recordings/messages/message_types.hpp"
@@ -91,7 +91,7 @@ Result<std::vector<Time>> times_of(const CsvColumns& csv, const CsvMapping& mapp
 }
 
 Result<Table> read_table(const CsvMapping& mapping, const fs::path& file, bool recover) {
-  const auto text = read_file(file, kMaxTableBytes);
+  const auto text = read_text_file(file, kMaxTableBytes);
   if (!text) return tl::unexpected(text.error());
   const auto csv = CsvColumns::parse(*text, file.string(), {},
                                      recover ? CsvOrigin::kDamaged : CsvOrigin::kForeign);

@@ -13,8 +13,8 @@
 #include <span>
 #include <utility>
 
-#include "core/files/atomic_file.hpp"
 #include "core/files/number_lines.hpp"
+#include "core/files/text_file.hpp"
 #include "core/files/yaml_scalars.hpp"
 #include "recordings/frames/frame_tree.hpp"
 #include "recordings/frames/static_transform.hpp"
@@ -237,7 +237,7 @@ Result<std::vector<FixedTransform>> parse_calibration(const std::string& text,
 
 Result<Pose> read_extrinsic(const std::filesystem::path& file, const std::string& parent,
                             const std::string& child) {
-  const auto text = read_file(file, kLargest);
+  const auto text = read_text_file(file, kLargest);
   if (!text) return tl::unexpected(text.error());
   const std::string name = file.string();
   const auto transforms = parse_calibration(*text, name);

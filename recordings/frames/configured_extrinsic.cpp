@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <numbers>
 
 #include "recordings/frames/calibration_file.hpp"
@@ -28,6 +29,11 @@ Result<Pose> written_pose(const ExtrinsicConfig& config, std::string_view key) {
   if (!config.quaternion_xyzw.empty()) {
     rotation = rotation_of_quaternion(config.quaternion_xyzw, place_of(key, "quaternion_xyzw"));
   }
+  if (const std::vector<double>& q = config.quaternion_wxyz; q.size() == 4) {
+    rotation = rotation_of_quaternion({{q[1], q[2], q[3], q[0]}}, place_of(key, "quaternion_wxyz"));
+  } else if (!q.empty()) {
+    rotation = rotation_of_quaternion(q, place_of(key, "quaternion_wxyz"));
+  }
   if (!config.rotation_matrix.empty()) {
     rotation = rotation_of_matrix(config.rotation_matrix, place_of(key, "rotation_matrix"));
   }
@@ -36,13 +42,33 @@ Result<Pose> written_pose(const ExtrinsicConfig& config, std::string_view key) {
   return pose;
 }
 
+bool names_imu(std::string frame) {
+  std::ranges::transform(frame, frame.begin(), [](unsigned char c) { return std::tolower(c); });
+  return frame.find("imu") != std::string::npos;
+}
+
+/// Of a static_transform_publisher, whose frames tell the direction where one names the IMU.
+Result<Pose> published_pose(const ExtrinsicConfig& config, std::string_view key) {
+  const std::string place = place_of(key, "static_transform");
+  const auto parsed = parse_static_transform(config.static_transform, place);
+  if (!parsed) return tl::unexpected(parsed.error());
+  const bool asked = config.direction == ExtrinsicDirection::kImuInSensor;
+  const bool imu_first = names_imu(parsed->parent), imu_last = names_imu(parsed->child);
+  if (asked && imu_first && !imu_last) {
+    return failure(
+        fmt::format("{}: '{}' in '{}' is the pose of the sensor in the IMU, which the "
+                    "direction contradicts",
+                    place, parsed->child, parsed->parent));
+  }
+  const bool turned = asked || (imu_last && !imu_first);
+  return turned ? parsed->T_parent_child.inverse() : parsed->T_parent_child;
+}
+
 }  // namespace
 
 Result<Pose> configured_extrinsic(const ExtrinsicConfig& config, std::string_view key) {
   const bool turned = config.direction == ExtrinsicDirection::kImuInSensor;
-  const bool typed = config.override_tf || !config.matrix.empty() ||
-                     !config.rotation_matrix.empty() || !config.quaternion_xyzw.empty();
-  if (static_cast<int>(typed) + static_cast<int>(!config.file.empty()) +
+  if (static_cast<int>(config.has_numbers()) + static_cast<int>(!config.file.empty()) +
           static_cast<int>(!config.static_transform.empty()) >
       1) {
     return failure(fmt::format(
@@ -56,15 +82,8 @@ Result<Pose> configured_extrinsic(const ExtrinsicConfig& config, std::string_vie
     return read_extrinsic(config.file, names.empty() ? "" : names[0],
                           names.empty() ? "" : names[1]);
   }
-  Result<Pose> pose = Pose();
-  if (!config.static_transform.empty()) {
-    const auto parsed =
-        parse_static_transform(config.static_transform, place_of(key, "static_transform"));
-    if (!parsed) return tl::unexpected(parsed.error());
-    pose = parsed->T_parent_child;
-  } else {
-    pose = written_pose(config, key);
-  }
+  if (!config.static_transform.empty()) return published_pose(config, key);
+  auto pose = written_pose(config, key);
   if (pose && turned) return pose->inverse();
   return pose;
 }
@@ -73,8 +92,8 @@ Result<RecordingConfig> with_plain_extrinsics(RecordingConfig config) {
   const auto make_plain = [](ExtrinsicConfig& each, std::string_view key) -> Result<void> {
     const bool plain = each.override_tf && each.direction == ExtrinsicDirection::kSensorInImu;
     const bool angles = each.matrix.empty() && each.rotation_matrix.empty() &&
-                        each.quaternion_xyzw.empty() && each.static_transform.empty() &&
-                        each.file.empty();
+                        each.quaternion_xyzw.empty() && each.quaternion_wxyz.empty() &&
+                        each.static_transform.empty() && each.file.empty();
     if (!each.is_given() || (plain && angles)) return {};
     const auto pose = configured_extrinsic(each, key);
     if (!pose) return tl::unexpected(pose.error());
@@ -92,6 +111,17 @@ Result<RecordingConfig> with_plain_extrinsics(RecordingConfig config) {
     return tl::unexpected(done.error());
   }
   return config;
+}
+
+void find_calibrations(RecordingConfig& config, const std::filesystem::path& folder) {
+  for (ExtrinsicConfig* each : {&config.T_imu_lidar, &config.T_imu_base}) {
+    if (each->file.empty() || std::filesystem::path(each->file).is_absolute()) continue;
+    const std::filesystem::path beside = folder / each->file;
+    std::error_code ignored;
+    const bool elsewhere =
+        std::filesystem::exists(each->file, ignored) && !std::filesystem::exists(beside, ignored);
+    if (!elsewhere) each->file = beside.string();
+  }
 }
 
 }  // namespace aims

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <string_view>
 
 #include "core/error.hpp"
@@ -15,5 +16,9 @@ Result<Pose> configured_extrinsic(const ExtrinsicConfig& config, std::string_vie
 
 /// The configuration with the plain form of each extrinsic that it states.
 Result<RecordingConfig> with_plain_extrinsics(RecordingConfig config);
+
+/// Takes relative names of calibrations as relative to the folder of the configuration that names
+/// them; one that is there only from the working directory stays.
+void find_calibrations(RecordingConfig& config, const std::filesystem::path& folder);
 
 }  // namespace aims

@@ -51,10 +51,10 @@ Pose RecordedFrames::extrinsic(const ExtrinsicConfig& configured, const std::str
   if (auto pose = find(from, to, notes)) return *pose;
   notes.warn(fmt::format("{} unknown", key),
              fmt::format("NO TRANSFORM from '{}' to '{}' in tf: identity is assumed. Set "
-                         "recording.{}.translation and "
-                         "rotation_rpy_deg with recording.{}.override_tf=true, or .file to a "
+                         "recording.{}.translation and rotation_rpy_deg, or .file to a "
                          "calibration, or name the frames",
-                         from, to, key, key));
+                         from, to, key),
+             key == "T_imu_lidar" ? WarnedSensor::kLidar : WarnedSensor::kLegs);
   return {};
 }
 

@@ -57,7 +57,7 @@ class Survey {
   }
 
   void finish(const std::vector<BagConnection>& connections, BagInfo& info) {
-    const bool unset = info.summary.start < kUnsetRecordTime;
+    const bool unset = info.summary.start < kSetRecordTime;
     if (unset && info.summary.end > kSetRecordTime) info.summary.start = first_set_;
     std::map<std::string, std::string> types;
     for (const BagConnection& each : connections) types[each.topic] = each.type;

@@ -200,7 +200,8 @@ void warn_of_imu(const BagInfo& info, const ImuInfo& imu, std::vector<std::strin
         imu.topic));
   }
   const TopicInfo* topic = info.find(imu.topic);
-  if (topic && topic->rate_hz.value_or(kMinImuRate) < kMinImuRate) {
+  constexpr double kNominal = 0.95;  // of a rate that is meant
+  if (topic && topic->rate_hz.value_or(kMinImuRate) < kNominal * kMinImuRate) {
     out.push_back(
         fmt::format("{}: {:.0f} Hz; footfalls alias into an IMU of this rate unless it averages, "
                     "and many systems require 100 Hz or more",

@@ -122,11 +122,11 @@ void TopicStatistics::finish(TopicInfo& info) {
     for (Entry& each : entries_) each.stamp = each.record;
   }
   const auto unset = [](const Entry& each) {
-    return each.record < kUnsetRecordTime && each.stamp > kSetRecordTime;
+    return each.record < kSetRecordTime && each.stamp > kSetRecordTime;
   };
   std::vector<Entry> first;
   std::ranges::copy_if(entries_, std::back_inserter(first), unset);
-  info.unset_record_times = first.size();
+  info.unset_record_times = first.size() < entries_.size() ? first.size() : 0;
   if (!first.empty() && first.size() < entries_.size()) {
     std::erase_if(entries_, unset);
     finish_offsets(info);

@@ -47,10 +47,10 @@ JointOrder order_of_legs(const std::array<int, kLegCount>& legs) {
   return order;
 }
 
-std::array<double, kJointCount> ordered(const std::vector<double>& values,
-                                        const JointOrder& order) {
+std::array<double, kJointCount> ordered(const std::vector<double>& values, const JointOrder& order,
+                                        double scale) {
   std::array<double, kJointCount> result{};
-  for (std::size_t i = 0; i < order.size(); ++i) result[i] = values[order[i]];
+  for (std::size_t i = 0; i < order.size(); ++i) result[i] = scale * values[order[i]];
   return result;
 }
 
@@ -104,14 +104,14 @@ std::optional<JointReading> joints_at(const MessageView& message, Time record_ti
   if (!order) return std::nullopt;
   JointReading reading;
   reading.stamp = header_stamp(message, record_time);
-  reading.position = ordered(*position, *order);
+  reading.position = ordered(*position, *order, rule.scale);
   const double knee = rule.state == nullptr ? 0.0 : rule.state->knee_offset;
   for (std::size_t leg = 0; leg < std::size_t{kLegCount}; ++leg) {
     reading.position[3 * leg + 2] += leg < 2 ? knee : -knee;
   }
   const auto velocity = numbers_at(message, rates_path(rule.state));
   if (velocity && velocity->size() == position->size()) {
-    reading.velocity = ordered(*velocity, *order);
+    reading.velocity = ordered(*velocity, *order, rule.scale);
   }
   return reading;
 }
@@ -125,9 +125,11 @@ std::optional<UnnamedJoints> unnamed_joints_at(const MessageView& message, const
   auto angles = numbers_at(message, angles_path(rule.state));
   const auto names = joint_names_at(message, rule.state);
   if (!angles || !joints_are_unnamed(names, angles->size())) return std::nullopt;
-  return UnnamedJoints{std::move(*angles),
-                       numbers_at(message, rates_path(rule.state)).value_or(std::vector<double>()),
-                       {names.begin(), names.end()}};
+  auto rates = numbers_at(message, rates_path(rule.state)).value_or(std::vector<double>());
+  for (std::vector<double>* each : {&*angles, &rates}) {
+    for (double& number : *each) number *= rule.scale;
+  }
+  return UnnamedJoints{std::move(*angles), std::move(rates), {names.begin(), names.end()}};
 }
 
 bool feet_are_named(const MessageView& message, const ContactRule& rule) {

@@ -50,6 +50,7 @@ struct JointRule {
   std::vector<std::string> names;      ///< as configured; empty: by the recorded names
   std::optional<JointOrder> order;     ///< where the recorded names do not tell
   const StateLayout* state = nullptr;  ///< of the message's type; null: a sensor_msgs/JointState
+  double scale = 1.0;                  ///< of the angles and rates to rad and rad/s
 };
 
 /// The joints of a sensor_msgs/JointState or a robot's state; nothing when one is missing.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 
 namespace aims {
 namespace {
@@ -44,10 +45,16 @@ bool is_foot(std::string_view name) { return holds_any(lower(name), {"foot", "to
 
 std::optional<int> leg_of_name(std::string_view name) {
   const std::vector<std::string> each = words(lower(name));
-  if (has_any(each, {"fl", "lf"})) return 0;
-  if (has_any(each, {"fr", "rf"})) return 1;
-  if (has_any(each, {"rl", "lr", "lh", "hl", "bl"})) return 2;
-  if (has_any(each, {"rr", "rh", "hr", "br"})) return 3;
+  if (has_any(each, {"fl", "lf", "frontleft", "leftfront"})) return 0;
+  if (has_any(each, {"fr", "rf", "frontright", "rightfront"})) return 1;
+  if (has_any(each, {"rl", "lr", "lh", "hl", "bl", "rearleft", "leftrear", "hindleft", "lefthind",
+                     "backleft", "leftback"})) {
+    return 2;
+  }
+  if (has_any(each, {"rr", "rh", "hr", "br", "rearright", "rightrear", "hindright", "righthind",
+                     "backright", "rightback"})) {
+    return 3;
+  }
   const bool front = has_any(each, {"front", "fore"});
   const bool rear = has_any(each, {"rear", "hind", "back"});
   const bool left = has_any(each, {"left"});
@@ -58,12 +65,33 @@ std::optional<int> leg_of_name(std::string_view name) {
 
 std::optional<int> joint_of_name(std::string_view name, bool abad) {
   const std::string text = lower(name);
-  if (holds_any(text, {"kfe", "calf", "knee", "kn", "shank", "lower"})) return 2;
-  if (holds_any(text, {"hfe", "thigh", "hip_y", "hip_pitch", "hip_fe", "hy", "upper"})) return 1;
+  if (holds_any(text, {"kfe", "calf", "knee", "kn", "shank", "lower", "tibia", "elbow"})) return 2;
+  if (holds_any(text, {"hfe", "thigh", "hip_y", "hipy", "hip_pitch", "hippitch", "hip_fe",
+                       "hip_flex", "hy", "upper", "femur", "shoulder rotation"})) {
+    return 1;
+  }
   if (abad && holds_any(text, {"hip"}) && !holds_any(text, {"abad", "abd"})) return 1;
-  if (holds_any(text, {"haa", "hip", "hx", "abd", "abad", "shoulder"})) return 0;
+  if (holds_any(text, {"haa", "hip", "hx", "abd", "abad", "shoulder", "coxa"})) return 0;
   return std::nullopt;
 }
+
+namespace {
+
+/// The entries of an array without names, of which twelve different ones are listed.
+std::optional<JointOrder> order_of_indices(std::span<const std::string> listed, std::size_t size) {
+  JointOrder order{};
+  if (listed.size() != order.size()) return std::nullopt;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const char* const end = listed[i].data() + listed[i].size();
+    const auto [read, error] = std::from_chars(listed[i].data(), end, order[i]);
+    if (error != std::errc() || read != end || order[i] >= size) return std::nullopt;
+    const auto before = std::span(order).first(i);
+    if (std::ranges::find(before, order[i]) != before.end()) return std::nullopt;
+  }
+  return order;
+}
+
+}  // namespace
 
 std::optional<JointOrder> joint_order(std::span<const std::string_view> recorded,
                                       std::span<const std::string> configured, std::size_t size) {
@@ -73,6 +101,7 @@ std::optional<JointOrder> joint_order(std::span<const std::string_view> recorded
   const bool abad = std::ranges::any_of(recorded, [](std::string_view name) {
     return holds_any(lower(name), {"abad", "abd"}) && !holds_any(lower(name), {"hip"});
   });
+  if (recorded.empty() && !configured.empty()) return order_of_indices(configured, size);
   const std::size_t named = std::min(recorded.size(), size);
   for (std::size_t i = 0; i < named; ++i) {
     std::optional<std::size_t> joint;

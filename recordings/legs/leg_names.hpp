@@ -22,7 +22,8 @@ std::optional<int> joint_of_name(std::string_view name, bool abad = false);
 /// Index of each of the twelve joints in a message's arrays.
 using JointOrder = std::array<std::size_t, kJointCount>;
 
-/// By the configured names if any, else by the recorded names. Nothing when a joint is not found.
+/// By the configured names if any, else by the recorded names. Where none are recorded, the
+/// configured ones are indices. Nothing when a joint is not found.
 std::optional<JointOrder> joint_order(std::span<const std::string_view> recorded,
                                       std::span<const std::string> configured, std::size_t size);
 

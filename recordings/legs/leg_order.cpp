@@ -90,6 +90,7 @@ Result<std::pair<LegCandidate, std::size_t>> chosen(const std::vector<LegEvidenc
   const LegCandidate* first = nullptr;
   std::size_t same = 0;
   std::vector<Eigen::Vector3d> velocity;
+  std::vector<std::string> others;
   for (const LegCandidate& each : candidates) {
     if (each.disagreement > limit) continue;
     ++same;
@@ -97,11 +98,16 @@ Result<std::pair<LegCandidate, std::size_t>> chosen(const std::vector<LegEvidenc
       first = &each;
       velocity = velocities(rows, each);
     } else if (!same_velocity(velocity, velocities(rows, each))) {
-      return failure(fmt::format("the legs may be {} or {}: the motion does not tell them apart",
-                                 names_of(first->leg_of_slot), names_of(each.leg_of_slot)));
+      const std::string name = names_of(each.leg_of_slot);
+      if (std::ranges::find(others, name) == others.end()) others.push_back(name);
     }
   }
-  return std::pair(*first, same);
+  if (others.empty()) return std::pair(*first, same);
+  const std::size_t listed = std::min<std::size_t>(others.size(), 3);
+  return failure(fmt::format(
+      "the legs may be {} or {}{}: the motion does not tell them apart",
+      names_of(first->leg_of_slot), fmt::join(std::span(others).first(listed), ", "),
+      others.size() > listed ? fmt::format(" or {} more", others.size() - listed) : ""));
 }
 
 }  // namespace

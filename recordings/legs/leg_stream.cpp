@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace aims {
 namespace {
@@ -14,6 +15,17 @@ constexpr double kMaxStep = 0.5;        ///< longest step that is integrated [s]
 constexpr double kMaxTwist = 1000.0;    ///< [m/s], [rad/s]
 constexpr Duration kMaxContactAge = kSecond / 5;
 constexpr std::size_t kRecentContacts = 64;
+
+/// Whether the feet in contact state velocities of the base that no slip explains.
+bool disagree(const std::vector<Eigen::Vector3d>& velocities) {
+  constexpr double kApart = 0.3, kPart = 0.5;  // [m/s], of the speed
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& each : velocities)
+    mean += each / static_cast<double>(velocities.size());
+  return std::ranges::any_of(velocities, [&mean](const Eigen::Vector3d& each) {
+    return (each - mean).norm() > kApart + kPart * mean.norm();
+  });
+}
 
 }  // namespace
 
@@ -58,7 +70,23 @@ std::optional<Eigen::Vector3d> LegStream::up_in_base() const {
   return config_.T_body_base.rotation.conjugate() * *up_.in_body();
 }
 
+/// A driver that leaves the twist empty: the velocity is that of the poses.
+void LegStream::fill_twist(LegOdometrySample& sample, EventCounts& counts) {
+  const auto before = std::exchange(odometry_, std::pair(sample.stamp, sample.T_odom_base));
+  if (!sample.linear_velocity.isZero(0.0) || !sample.angular_velocity.isZero(0.0)) return;
+  const double step = before ? to_seconds(sample.stamp - before->first) : 0.0;
+  if (!(step > 0.0) || step > kMaxStep) return;
+  const Pose moved = before->second.inverse() * sample.T_odom_base;
+  const Eigen::Vector3d turned = so3_log(moved.rotation);
+  if (moved.translation.isZero(0.0) && turned.isZero(0.0)) return;
+  ++counts["legs_twist_by_pose_differences"];
+  // In the axes of the base in the middle of the step.
+  sample.linear_velocity = so3_exp(-0.5 * turned) * moved.translation / step;
+  sample.angular_velocity = turned / step;
+}
+
 LegOdometrySample LegStream::add_odometry(LegOdometrySample sample, EventCounts& counts) {
+  fill_twist(sample, counts);
   attach(sample);
   if (twist_check_.add(sample)) ++counts["legs_twist_in_odometry_axes_seconds"];
   return sample;
@@ -143,8 +171,7 @@ std::optional<LegOdometrySample> LegStream::forward_kinematics(const JointReadin
   sample.contact = usable_contacts(joints);
   sample.contact_force = contacts_->force;
   sample.angular_velocity = config_.T_body_base.rotation.conjugate() * imu_->angular_velocity;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  int feet = 0;
+  std::vector<Eigen::Vector3d> velocities;
   for (int leg = 0; leg < kLegCount; ++leg) {
     if (!sample.contact[static_cast<std::size_t>(leg)]) continue;
     const LegMotion motion{Eigen::Vector3d(&sample.joint_position[3 * leg]),
@@ -152,11 +179,13 @@ std::optional<LegOdometrySample> LegStream::forward_kinematics(const JointReadin
                            sample.angular_velocity};
     const bool rolls = config_.foot_model == FootModel::kRolling;
     const Eigen::Vector3d up = up_in_base().value_or(Eigen::Vector3d::UnitZ());
-    sum += rolls ? velocity_from_rolling_foot(leg, motion, up, config_.geometry)
-                 : velocity_from_foot(leg, motion, config_.geometry);
-    ++feet;
+    velocities.push_back(rolls ? velocity_from_rolling_foot(leg, motion, up, config_.geometry)
+                               : velocity_from_foot(leg, motion, config_.geometry));
   }
-  return finish(std::move(sample), sum, feet, counts);
+  if (disagree(velocities)) ++counts["feet_in_contact_disagree"];
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& each : velocities) sum += each;
+  return finish(std::move(sample), sum, static_cast<int>(velocities.size()), counts);
 }
 
 /// The speeds of feet that have none, and the contacts of which they are: a difference over

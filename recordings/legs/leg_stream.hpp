@@ -55,6 +55,7 @@ class LegStream {
  private:
   bool same_instant(Time a, Time b) const;
   void attach(LegOdometrySample& sample) const;
+  void fill_twist(LegOdometrySample& sample, EventCounts& counts);
   void integrate(LegOdometrySample& sample);
   void differentiate(JointReading& reading);
   bool difference_feet(FeetReading& reading, std::array<bool, kLegCount>& contact);
@@ -73,9 +74,10 @@ class LegStream {
   std::optional<JointReading> joints_;
   std::optional<std::pair<FeetReading, std::array<bool, kLegCount>>> feet_;  ///< the last ones
   std::optional<ContactReading> contacts_;
-  std::deque<ContactReading> recent_contacts_;  ///< in the order of the recording
-  Time stamp_before_ = 0;                       ///< of the joints before the last ones
-  bool joints_wait_ = false;                    ///< for contacts of the same instant
+  std::deque<ContactReading> recent_contacts_;     ///< in the order of the recording
+  Time stamp_before_ = 0;                          ///< of the joints before the last ones
+  bool joints_wait_ = false;                       ///< for contacts of the same instant
+  std::optional<std::pair<Time, Pose>> odometry_;  ///< the last one
   std::optional<Time> integrated_;
   Pose T_odom_base_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< from the last feet in contact [m/s]

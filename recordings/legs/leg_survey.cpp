@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "recordings/messages/message_types.hpp"
 
@@ -13,6 +14,7 @@ namespace aims {
 namespace {
 
 constexpr std::size_t kMaxListed = 200;  ///< of names in messages [bytes]
+constexpr double kLargeAngle = 6.5;      ///< of no joint of a leg [rad]
 
 }  // namespace
 
@@ -29,11 +31,62 @@ void LegSurvey::add_joints(const MessageView& message, Time record_time, const S
   } else if (config_.joint_names.empty() && unnamed_joints_at(message, joint_rule_)) {
     ++unnamed_joint_messages_;
   }
+  add_angles(message, record_time);
   if (joint_names_.empty()) {
     const auto names = joint_names_at(message, state);
     joint_names_ = fmt::format("{}", fmt::join(names, ", ")).substr(0, kMaxListed);
   }
   if (const auto effort = message.numbers("effort"); effort && !effort->empty()) ++effort_messages_;
+}
+
+/// Notes angles that are too large for a leg.
+void LegSurvey::add_angles(const MessageView& message, Time record_time) {
+  const auto large = [](double each) { return std::abs(each) > kLargeAngle; };
+  if (const auto joints = joints_at(message, record_time, joint_rule_)) {
+    if (std::ranges::any_of(joints->position, large)) ++large_angles_;
+  } else if (const auto unnamed = unnamed_joints_at(message, joint_rule_)) {
+    if (std::ranges::any_of(unnamed->angles, large)) ++large_angles_;
+  }
+}
+
+void LegSurvey::warn_of_degrees(ReadingNotes& notes) const {
+  if (2 * large_angles_ <= complete_joint_messages_ + unnamed_joint_messages_) return;
+  notes.warn("joint angles perhaps in degrees",
+             fmt::format("{}: angles beyond {} rad, which no leg reaches: are they in degrees? "
+                         "Then set recording.joint_unit=deg",
+                         topics_.joint_states, kLargeAngle));
+}
+
+/// Why the joints are not identified.
+std::string LegSurvey::lack_of_joints() const {
+  if (joint_rule_.state != nullptr && joint_rule_.state->joint_names.empty()) {
+    return fmt::format("{}: expected twelve joints or more in '{}'", topics_.joint_states,
+                       joint_rule_.state->angles);
+  }
+  if (joint_names_.empty()) {
+    return fmt::format(
+        "{}: the joints have no names: set recording.joint_names to the twelve "
+        "indices of FL, FR, RL, RR: abduction, hip, knee",
+        topics_.joint_states);
+  }
+  return fmt::format("{}: the names do not identify the twelve joints (joint_names): {}",
+                     topics_.joint_states, joint_names_);
+}
+
+/// What to do where joints have no contacts.
+std::string LegSurvey::lack_of_contacts() const {
+  const std::string torques =
+      effort_messages_ == 0 || topics_.contacts == topics_.joint_states
+          ? ""
+          : fmt::format(", or take the torques of the knees (--topics contacts={})",
+                        topics_.joint_states);
+  const std::string found =
+      topics_.contacts.empty() ? "no contacts of the feet are found"
+                               : fmt::format("{} holds no contacts of four feet", topics_.contacts);
+  return fmt::format(
+      "{} has joints, but {}: name a topic with a number for each foot "
+      "(--topics contacts=/...){}",
+      topics_.joint_states, found, torques);
 }
 
 void LegSurvey::choose_contact_field(const std::string& type, const MessageDecoder& decoder,
@@ -50,8 +103,9 @@ void LegSurvey::choose_contact_field(const std::string& type, const MessageDecod
     }
     return;
   }
-  contacts_are_raw_ = type == kFootForces;
-  if (contact_field_.empty() && type == "sensor_msgs/JointState") contact_field_ = "effort";
+  const bool joints = type == "sensor_msgs/JointState";
+  contacts_are_raw_ = type == kFootForces || joints;
+  if (contact_field_.empty() && joints) contact_field_ = "effort";
   for (const MessageField& field : decoder.fields()) {
     if (field.kind != FieldKind::kNumbers) continue;
     if (contact_field_.empty()) contact_field_ = field.path;
@@ -74,11 +128,13 @@ void LegSurvey::add_contacts(const MessageView& message, const std::string& type
 void LegSurvey::add_joint_motion(const MessageView& message, Time record_time) {
   const Time stamp = header_stamp(message, record_time);
   const Time time = stamp == 0 ? record_time : stamp;
-  if (const auto unnamed = unnamed_joints_at(message, joint_rule_)) {
-    return order_finder_.add_joints(time, unnamed->angles, unnamed->rates);
-  }
+  // Names that are configured or recorded go first.
   const auto joints = joints_at(message, record_time, joint_rule_);
-  if (!joints) return;
+  if (!joints) {
+    const auto unnamed = unnamed_joints_at(message, joint_rule_);
+    if (unnamed) order_finder_.add_joints(time, unnamed->angles, unnamed->rates);
+    return;
+  }
   const auto& q = joints->position;
   std::vector<double> rates;
   if (joints->velocity) rates.assign(joints->velocity->begin(), joints->velocity->end());
@@ -98,9 +154,12 @@ void LegSurvey::decide_order(const Eigen::Quaterniond& R_body_base, ReadingNotes
       order_finder_.find(config_.leg_geometry, R_body_base,
                          unnamed ? std::nullopt : std::optional(by_name), !feet_unnamed_);
   const std::string names =
-      fmt::format("{}: the names '{}' tell no joints", topics_.joint_states, joint_names_);
+      joint_names_.empty()
+          ? fmt::format("{}: the joints have no names", topics_.joint_states)
+          : fmt::format("{}: the names '{}' tell no joints", topics_.joint_states, joint_names_);
   if (!found && unnamed) {
-    lack_ = fmt::format("{}, and {}: set recording.joint_names", names, found.error().message);
+    lack_ = fmt::format("{}, and {}: set recording.joint_names{}", names, found.error().message,
+                        joint_names_.empty() ? " to their twelve indices" : "");
     return notes.warn("joints not identified", lack_);
   }
   const std::string feet = fmt::format("{}: no names tell the feet", topics_.contacts);
@@ -173,6 +232,13 @@ Result<ContactRule> LegSurvey::learned_rule(ReadingNotes& notes) const {
   return rule;
 }
 
+ContactRule LegSurvey::without_contacts(const std::string& reason, ReadingNotes& notes) {
+  lack_ = reason;
+  contact_messages_ = 0;
+  notes.warn("contacts of the feet not learned", reason + ": no contacts are used");
+  return rule_of(std::numeric_limits<double>::infinity());
+}
+
 Result<ContactRule> LegSurvey::decide_contacts(ReadingNotes& notes) const {
   ContactRule rule = rule_of(config_.contact_threshold);
   if (topics_.contacts.empty()) return rule;
@@ -182,7 +248,15 @@ Result<ContactRule> LegSurvey::decide_contacts(ReadingNotes& notes) const {
         topics_.contacts, contact_field_));
     return rule;
   }
-  if (learns_contacts()) return learned_rule(notes);
+  if (learns_contacts()) {
+    auto learned = learned_rule(notes);
+    const bool asked = config_.contact_detection == ContactDetection::kLearned;
+    if (learned || asked || contact_field_ != "effort") return learned;
+    notes.warn("threshold of contact assumed",
+               fmt::format("{}: contact from {} of the knee's torque on: no other threshold can be "
+                           "learned (contact_threshold)",
+                           topics_.contacts, config_.contact_threshold));
+  }
   if (!contacts_are_flags_ && largest_load_ > 1.0) return rule;
   rule = rule_of(0.5);
   if (!contacts_are_flags_) {
@@ -221,19 +295,16 @@ LegSource LegSurvey::decide_feet(ReadingNotes& notes) {
                            : has_feet_          ? fmt::format("{} is zero", field)
                                                 : fmt::format("'{}' does not hold all feet", field);
   notes.push_back(fmt::format("{}: {}: estimators run without legs", topics_.leg_odometry, lack));
-  lack_ = lack;
+  if (lack_.empty()) lack_ = lack;
   return LegSource::kNone;
 }
 
 LegSource LegSurvey::decide_source(const std::string& type, const std::string& frame,
                                    ReadingNotes& notes) {
   const bool joints = has_joints();
+  warn_of_degrees(notes);
   if (!topics_.joint_states.empty() && joint_messages_ > 0 && !joints && lack_.empty()) {
-    const bool named = joint_rule_.state == nullptr || !joint_rule_.state->joint_names.empty();
-    lack_ = named ? fmt::format("{}: the names do not identify the twelve joints (joint_names): {}",
-                                topics_.joint_states, joint_names_)
-                  : fmt::format("{}: expected twelve joints or more in '{}'", topics_.joint_states,
-                                joint_rule_.state->angles);
+    lack_ = has_unnamed_joints() && contact_messages_ == 0 ? lack_of_contacts() : lack_of_joints();
     notes.warn("joints not identified", lack_);
   }
   if (!topics_.leg_odometry.empty()) {
@@ -248,6 +319,7 @@ LegSource LegSurvey::decide_source(const std::string& type, const std::string& f
     return LegSource::kKinematics;
   }
   notes.push_back("no leg odometry, and no joints with contacts: estimators run without legs");
+  if (joints && lack_.empty()) lack_ = lack_of_contacts();
   if (joints && effort_messages_ > 0 && topics_.contacts.empty()) {
     notes.push_back(fmt::format("knee torques can indicate contacts: set topics.contacts: {}",
                                 topics_.joint_states));

@@ -21,7 +21,9 @@ bool is_world_frame(const std::string& frame);
 class LegSurvey {
  public:
   LegSurvey(const RecordingConfig& config, const TopicsConfig& topics)
-      : config_(config), topics_(topics), joint_rule_{config.joint_names, std::nullopt, nullptr} {}
+      : config_(config),
+        topics_(topics),
+        joint_rule_{config.joint_names, std::nullopt, nullptr, radians_per(config.joint_unit)} {}
 
   /// `state`: how the message's type holds a robot's legs, or null. Likewise below.
   void add_joints(const MessageView& message, Time record_time, const StateLayout* state);
@@ -59,6 +61,9 @@ class LegSurvey {
   /// which no thresholds can be learned.
   Result<ContactRule> decide_contacts(ReadingNotes& notes) const;
 
+  /// Goes on without the contacts, which cannot be used for that reason.
+  ContactRule without_contacts(const std::string& reason, ReadingNotes& notes);
+
   /// The source of leg odometry. `type` and `frame` are those of the leg odometry topic, if any.
   LegSource decide_source(const std::string& type, const std::string& frame, ReadingNotes& notes);
 
@@ -67,6 +72,10 @@ class LegSurvey {
   bool has_unnamed_joints() const {
     return complete_joint_messages_ == 0 && unnamed_joint_messages_ > 0;
   }
+  void add_angles(const MessageView& message, Time record_time);
+  void warn_of_degrees(ReadingNotes& notes) const;
+  std::string lack_of_joints() const;
+  std::string lack_of_contacts() const;
   ContactRule rule_of(double threshold) const;
   Result<ContactRule> learned_rule(ReadingNotes& notes) const;
   void choose_contact_field(const std::string& type, const MessageDecoder& decoder,
@@ -79,6 +88,7 @@ class LegSurvey {
   int joint_messages_ = 0;
   int complete_joint_messages_ = 0;  ///< with all twelve joints
   int unnamed_joint_messages_ = 0;
+  int large_angles_ = 0;     ///< messages with an angle that no joint has in rad
   std::string joint_names_;  ///< recorded, of the first message
   JointRule joint_rule_;
   LegOrderFinder order_finder_;

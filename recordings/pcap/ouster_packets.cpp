@@ -12,9 +12,9 @@
 #include <string_view>
 #include <utility>
 
-#include "core/files/atomic_file.hpp"
 #include "core/files/byte_cursor.hpp"
 #include "core/files/number_lines.hpp"
+#include "core/files/text_file.hpp"
 #include "core/files/yaml_scalars.hpp"
 
 namespace aims {
@@ -124,7 +124,7 @@ const OusterScans::Layout& OusterScans::layout() const {
 }
 
 Result<OusterMetadata> read_ouster_metadata(const std::filesystem::path& file) {
-  const auto text = read_file(file, std::size_t{1} << 20);
+  const auto text = read_text_file(file, std::size_t{1} << 20);
   if (!text) return tl::unexpected(text.error());
   return parse_ouster_metadata(*text, file.string());
 }

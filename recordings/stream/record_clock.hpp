@@ -5,9 +5,8 @@
 
 namespace aims {
 
-/// Where a recording has record times after `kSetRecordTime`, those before `kUnsetRecordTime` come
-/// from a recorder whose clock was not set yet.
-inline constexpr Time kUnsetRecordTime = kSecond;
+/// Where a recording has record times after this, those before come from a recorder whose clock was
+/// not set yet: they count from 1970 or from boot.
 inline constexpr Time kSetRecordTime = 100'000'000 * kSecond;
 
 }  // namespace aims

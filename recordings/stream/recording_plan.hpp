@@ -24,13 +24,15 @@ struct RecordingPlan {
   LegStreamConfig legs;
   JointRule joints;
   ContactRule contacts;
-  Pose T_truth_body;                                        ///< body pose in the frame of the truth
-  bool truth_is_of_body = true;                             ///< then its poses are used unchanged
-  Duration arrival_shift = 0;                               ///< added to record times
-  Time start = 0;                                           ///< earliest record time that was set
+  Pose T_truth_body;             ///< body pose in the frame of the truth
+  bool truth_is_of_body = true;  ///< then its poses are used unchanged
+  Duration arrival_shift = 0;    ///< added to record times
+  Time start = 0;                ///< earliest record time that was set
+  std::optional<Time> begin;     ///< record time before which there is an IMU alone: left out
   std::array<std::optional<Duration>, kRoleCount> latency;  ///< record time minus stamp, typically
   /// A message that is recorded earlier than its stamp and latency by more has a wrong record time.
   Duration max_early = kSecond / 2;
+  Duration max_hold = 60 * kSecond;         ///< of such a message, until its stamp
   std::array<Duration, kRoleCount> wait{};  ///< of messages, for those whose stamps move back more
   std::map<std::string, Duration> repeat_period;     ///< of topics that send each sample repeatedly
   std::array<bool, kRoleCount> stamped_by_record{};  ///< without stamps: record times are used

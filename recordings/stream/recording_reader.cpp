@@ -9,6 +9,7 @@
 
 #include "recordings/legs/leg_stream.hpp"
 #include "recordings/source/recording_file.hpp"
+#include "recordings/stream/record_clock.hpp"
 #include "recordings/stream/recording_plan.hpp"
 #include "recordings/stream/repeated_samples.hpp"
 #include "recordings/topics/recording_channels.hpp"
@@ -20,11 +21,8 @@ namespace {
 /// Limits of one call of `advance`, for many messages at one instant.
 constexpr std::size_t kMaxDeliveries = 100'000;
 constexpr std::size_t kMaxBytes = std::size_t{256} << 20;
-/// A message that is recorded so much earlier than usual after its stamp is recorded by a wrong
-/// clock.
 /// Of a stamp 0 from the time at which its message was recorded, by the clock of the sensor.
 constexpr Duration kMaxUnset = kSecond;
-constexpr Duration kMaxHold = 60 * kSecond;  ///< of a message with a record time
 constexpr std::size_t kMaxHeldBytes = std::size_t{256} << 20;
 
 }  // namespace
@@ -142,6 +140,7 @@ void RecordingReader::Impl::take_imu(const MessageView& view, std::vector<Delive
   if (plan.turn_scale != 1.0) sample.angular_velocity *= plan.turn_scale;
   const bool finite = sample.angular_velocity.allFinite() && recorded->specific_force.allFinite();
   if (!finite) ++counts["imu_not_finite"];
+  if (plan.begin && record_time < *plan.begin) return;
   legs.add_imu(sample);
   deliver(Role::kImu, sample, sample.stamp, out);
 }
@@ -242,8 +241,9 @@ Time RecordingReader::Impl::due(const BagMessage& message, const Channel& channe
   const auto stamp = view.time("header.stamp");
   if (!stamp || !plan.latency[role]) return recorded + plan.wait[role];
   const Duration early = *stamp + *plan.latency[role] - recorded;
-  const bool unset = recorded < kSecond;
-  if (early < plan.max_early || (early > kMaxHold && !unset)) return recorded + plan.wait[role];
+  const bool unset = recorded < kSetRecordTime && plan.start > kSetRecordTime;
+  if (early < plan.max_early || (early > plan.max_hold && !unset))
+    return recorded + plan.wait[role];
   ++counts["recorded_before_their_stamp"];
   return recorded + early + plan.wait[role];
 }

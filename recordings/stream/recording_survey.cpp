@@ -20,6 +20,9 @@ constexpr std::size_t kMaxSamples = 2000;
 constexpr double kMaxTurnRate = 35.0;  ///< saturation of a gyro of 2000 deg/s [rad/s]
 /// Median turn rate of no walking robot [rad/s].
 constexpr double kFastTurning = 4.0;
+constexpr double kLeastGravity = 0.5;  ///< of the mean force, as a fraction of the median norm
+constexpr double kSlowImu = 5.0;       ///< [Hz]
+constexpr double kFastImu = 20'000.0;  ///< [Hz]
 
 /// Replaces the nominal rate of a sensor by the measured one where they differ by more than 10 %.
 void adopt_rate(std::optional<double> measured_hz, const char* sensor, double& nominal_hz,
@@ -41,7 +44,6 @@ void RecordingSurvey::note_times(Role role, const MessageView& view, Time record
   }
   if (each.stamps.size() >= kMaxSamples) return;
   const Time stamp = header_stamp(view, record_time);
-  if (record_time < kUnsetRecordTime && stamp > kSetRecordTime) return;  // never set
   each.unstamped = each.unstamped || !recorded_stamp(view);
   each.stamps.push_back(stamp);
   each.latencies.push_back(record_time - stamp);
@@ -126,14 +128,21 @@ std::set<std::string> RecordingSurvey::unstamped_states() const {
   return types;
 }
 
-void RecordingSurvey::decide_imu(RecordingPlan& plan) {
+/// The unit of the accelerometer, which gravity gives away.
+void RecordingSurvey::decide_force_unit(RecordingPlan& plan) {
   ReadingNotes& notes = notes_;
-  plan.setup.imu_rate_hz = sample_rate(seen(Role::kImu).stamps);
-  plan.setup.has_orientation = oriented_;
-  adopt_rate(plan.setup.imu_rate_hz, "IMU", plan.setup.rig.imu_rate_hz, notes);
   const double force = upper_median(forces_).value_or(0.0);
   bool gravities = config_.imu_unit == ImuUnit::kGravities;
-  if (config_.imu_unit == ImuUnit::kAuto && !forces_.empty()) {
+  // Gravity adds up over the samples; accelerations of a walk without it do not.
+  const double mean =
+      turn_rates_.empty() ? 0.0 : force_sum_.norm() / static_cast<double>(turn_rates_.size());
+  const bool gravity_free = !forces_.empty() && mean < kLeastGravity * force;
+  if (gravity_free) {
+    notes.warn("accelerometer without gravity",
+               fmt::format("specific force of {:.3g} in the median but {:.3g} in the mean: gravity "
+                           "is taken out, or the axes change; estimators need it as measured",
+                           force, mean));
+  } else if (config_.imu_unit == ImuUnit::kAuto && !forces_.empty()) {
     gravities = is_in_gravities(force);
     if (!gravities && (force < 5.0 || force > 15.0)) {
       notes.warn("unit of the accelerometer unknown",
@@ -147,6 +156,20 @@ void RecordingSurvey::decide_imu(RecordingPlan& plan) {
     notes.push_back(
         fmt::format("IMU in g ({:.3f} at the start): multiplied by {}", force, kStandardGravity));
   }
+}
+
+void RecordingSurvey::decide_imu(RecordingPlan& plan) {
+  ReadingNotes& notes = notes_;
+  plan.setup.imu_rate_hz = sample_rate(seen(Role::kImu).stamps);
+  plan.setup.has_orientation = oriented_;
+  adopt_rate(plan.setup.imu_rate_hz, "IMU", plan.setup.rig.imu_rate_hz, notes);
+  if (const auto rate = plan.setup.imu_rate_hz; rate && (*rate < kSlowImu || *rate > kFastImu)) {
+    notes.warn("rate of the IMU",
+               fmt::format("IMU of {:.3g} Hz by its stamps: are they in another unit than seconds "
+                           "(of a table: time_unit of its mapping), or are most of them lost?",
+                           *rate));
+  }
+  decide_force_unit(plan);
   for (const std::string& type : unstamped_states()) {
     notes.push_back(fmt::format("{} has no stamp: record times are used", type));
   }
@@ -165,7 +188,7 @@ void RecordingSurvey::decide_imu(RecordingPlan& plan) {
   }
 }
 
-Result<void> RecordingSurvey::decide_legs(RecordingPlan& plan) {
+void RecordingSurvey::decide_legs(RecordingPlan& plan) {
   const Seen& legs = seen(Role::kLegs);
   ReadingNotes ignored;  // the frames are decided, and noted, later
   legs_.decide_order(
@@ -173,8 +196,8 @@ Result<void> RecordingSurvey::decide_legs(RecordingPlan& plan) {
           .rotation,
       notes_);
   auto contacts = legs_.decide_contacts(notes_);
-  if (!contacts) return tl::unexpected(contacts.error());
-  plan.contacts = std::move(*contacts);
+  plan.contacts =
+      contacts ? std::move(*contacts) : legs_.without_contacts(contacts.error().message, notes_);
   LegStreamConfig& stream = plan.legs;
   stream.geometry = config_.leg_geometry;
   stream.foot_model = config_.foot_model;
@@ -189,7 +212,6 @@ Result<void> RecordingSurvey::decide_legs(RecordingPlan& plan) {
   adopt_rate(plan.setup.leg_rate_hz, "leg odometry", plan.setup.rig.leg_rate_hz, notes_);
   const double rate = plan.setup.leg_rate_hz.value_or(100.0);
   stream.half_period = from_seconds(std::clamp(0.5 / rate, 1e-9, 0.5));
-  return {};
 }
 
 std::string RecordingSurvey::imu_frame() const {
@@ -210,6 +232,13 @@ std::string RecordingSurvey::base_frame() const {
   return {};
 }
 
+/// Whether legs and IMU are of one message or table of the robot, in the axes of its body.
+bool RecordingSurvey::is_imu_of_base() const {
+  if (seen(Role::kContacts).type == kFootForces) return true;
+  const bool of_state = seen(Role::kImu).state != nullptr;
+  return of_state && (topics_.joint_states == topics_.imu || topics_.leg_odometry == topics_.imu);
+}
+
 void RecordingSurvey::decide_frames(RecordingPlan& plan) {
   RecordingSetup& setup = plan.setup;
   const std::string lidar =
@@ -218,7 +247,10 @@ void RecordingSurvey::decide_frames(RecordingPlan& plan) {
     setup.rig.T_body_lidar =
         frames_.extrinsic(config_.T_imu_lidar, imu_frame(), lidar, "T_imu_lidar", notes_);
   }
-  if (setup.has_legs) {
+  if (setup.has_legs && is_imu_of_base() && !config_.T_imu_base.is_given() &&
+      !frames_.find(imu_frame(), base_frame(), notes_)) {
+    notes_.push_back("the IMU of the robot's state is taken to be at its base (T_imu_base)");
+  } else if (setup.has_legs) {
     setup.rig.T_body_base =
         frames_.extrinsic(config_.T_imu_base, imu_frame(), base_frame(), "T_imu_base", notes_);
   }
@@ -262,8 +294,13 @@ void RecordingSurvey::decide_truth(RecordingPlan& plan) {
 }
 
 Time RecordingSurvey::start(const BagSummary& summary) const {
-  const bool unset = summary.start < kUnsetRecordTime && first_set_;
+  const bool unset = summary.start < kSetRecordTime && first_set_;
   return unset ? *first_set_ : summary.start;
+}
+
+/// Marks the warnings from `first` on as those of a sensor.
+void RecordingSurvey::warn_of(WarnedSensor sensor, std::size_t first) {
+  for (std::size_t i = first; i < notes_.warnings.size(); ++i) notes_.warnings[i].sensor = sensor;
 }
 
 Result<RecordingPlan> RecordingSurvey::decide(const std::filesystem::path& bag,
@@ -276,6 +313,7 @@ Result<RecordingPlan> RecordingSurvey::decide(const std::filesystem::path& bag,
       return failure(fmt::format("{}: topic '{}': {}", bag.string(), topics_.lidar, cloud_error_));
     }
     plan.cloud = clouds_.decide(config_, notes_);
+    warn_of(WarnedSensor::kLidar, 0);
     plan.setup.has_point_times = plan.cloud.clock != PointClock::kNone;
     plan.setup.rings = plan.cloud.rings;
   }
@@ -283,9 +321,10 @@ Result<RecordingPlan> RecordingSurvey::decide(const std::filesystem::path& bag,
   decide_stamps(plan);
   decide_waits(plan);
   decide_imu(plan);
-  if (auto legs = decide_legs(plan); !legs) {
-    return failure(fmt::format("{}: {}", bag.string(), legs.error().message));
-  }
+  const std::size_t before_legs = notes_.warnings.size();
+  decide_legs(plan);
+  warn_of(WarnedSensor::kLegs, before_legs);
+  decide_begin(plan);
   decide_frames(plan);
   decide_truth(plan);
   for (const auto& [what, times] : frames_.counts()) {

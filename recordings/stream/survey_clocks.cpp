@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
+#include "recordings/stream/record_clock.hpp"
 #include "recordings/stream/recording_survey.hpp"
 
 namespace aims {
@@ -16,6 +18,8 @@ constexpr Duration kMaxClockDifference = 5 * kSecond;
 constexpr Duration kMaxLatencyDifference = kSecond / 4;
 /// A step back of stamps that is no exchange of neighbours.
 constexpr Duration kMaxDisorder = kSecond / 5;
+constexpr Duration kLongestStep = 100'000 * kSecond;  ///< a day, as of a wrong date
+constexpr Duration kMaxBetween = kSecond;             ///< of the samples before and after a step
 constexpr std::size_t kFirst = 20;  ///< messages whose latency is that before a step
 
 bool all_zero(const std::vector<Time>& stamps) {
@@ -70,11 +74,15 @@ void RecordingSurvey::decide_waits(RecordingPlan& plan) const {
 std::optional<RecordingSurvey::ClockStep> RecordingSurvey::clock_step_of(const Seen& each) {
   std::vector<std::pair<Time, Duration>> by_stamp;
   int backwards = 0;
+  bool swapped = false;
   for (std::size_t i = 0; i < each.stamps.size(); ++i) {
     by_stamp.emplace_back(each.stamps[i], each.latencies[i]);
-    if (i > 0 && each.stamps[i] < each.stamps[i - 1] - kMaxDisorder) ++backwards;
+    if (i == 0 || each.stamps[i] >= each.stamps[i - 1] - kMaxDisorder) continue;
+    // A step of more than the recording puts all that follows it in front, in one piece.
+    const Duration apart = each.stamps.front() - each.stamps.back();
+    swapped = ++backwards == 1 && apart > 0 && apart < kMaxBetween;
   }
-  if (backwards < 2) return std::nullopt;
+  if (backwards < 2 && !swapped) return std::nullopt;
   std::ranges::stable_sort(by_stamp, {}, &std::pair<Time, Duration>::first);
   std::vector<Duration> before, after;
   for (std::size_t i = 0; i < std::min(by_stamp.size(), kFirst); ++i) {
@@ -96,7 +104,8 @@ Duration RecordingSurvey::latency_of(const Seen& each, const std::optional<Clock
   if (!step) return early_latency(each.latencies);
   std::vector<Duration> before;
   for (std::size_t i = 0; i < each.stamps.size(); ++i) {
-    if (each.stamps[i] < step->stamp) before.push_back(each.latencies[i]);
+    // What was on its way at the step is recorded after it.
+    if (each.stamps[i] < step->stamp - kMaxDisorder) before.push_back(each.latencies[i]);
   }
   return before.empty() ? early_latency(each.latencies) + step->back
                         : early_latency(std::move(before));
@@ -119,25 +128,49 @@ void RecordingSurvey::decide_repeats(RecordingPlan& plan) {
   }
 }
 
-void RecordingSurvey::keep_new(Seen& each) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < each.is_new.size(); ++i) {
-    if (!each.is_new[i]) continue;
-    each.stamps[kept] = each.stamps[i];
-    each.latencies[kept++] = each.latencies[i];
+void RecordingSurvey::keep(Seen& each, const std::vector<bool>& kept) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (!kept[i]) continue;
+    each.stamps[count] = each.stamps[i];
+    each.latencies[count] = each.latencies[i];
+    each.is_new[count++] = each.is_new[i];
   }
-  each.stamps.resize(kept);
-  each.latencies.resize(kept);
-  each.is_new.assign(kept, true);
+  each.stamps.resize(count);
+  each.latencies.resize(count);
+  each.is_new.resize(count);
+}
+
+void RecordingSurvey::keep_new(Seen& each) { keep(each, std::vector<bool>(each.is_new)); }
+
+/// Messages whose record time or stamp was not set yet say nothing of the clocks.
+void RecordingSurvey::leave_out_unset() {
+  for (Seen& each : seen_) {
+    Time least = std::numeric_limits<Time>::max();  // of the stamps that are not 0
+    for (const Time stamp : each.stamps) least = stamp != 0 ? std::min(least, stamp) : least;
+    const bool zeros_are_unset =
+        least > kMaxClockDifference && least < std::numeric_limits<Time>::max();
+    std::vector<bool> kept;
+    for (std::size_t i = 0; i < each.stamps.size(); ++i) {
+      const Time stamp = each.stamps[i], recorded = stamp + each.latencies[i];
+      const bool unset = first_set_ && recorded < kSetRecordTime && stamp > kSetRecordTime;
+      kept.push_back(!unset && !(zeros_are_unset && stamp == 0));
+    }
+    if (std::ranges::find(kept, true) != kept.end()) keep(each, kept);
+  }
 }
 
 /// Clocks: stamps that were never set, and sensors with different clocks.
 void RecordingSurvey::decide_stamps(RecordingPlan& plan) {
+  leave_out_unset();
   // Of the topic with the most messages, whose stamps tell the step best.
   const auto densest =
       std::ranges::max_element(seen_, {}, [](const Seen& each) { return each.stamps.size(); });
   const auto step = clock_step_of(*densest);
-  if (step) plan.max_early = std::min(plan.max_early, step->back / 2);
+  if (step) {
+    plan.max_early = std::min(plan.max_early, step->back / 2);
+    plan.max_hold += std::min(step->back, kLongestStep);
+  }
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     const Role role = static_cast<Role>(i);
     const std::string& topic = topic_of(topics_, role);
@@ -155,13 +188,31 @@ void RecordingSurvey::decide_stamps(RecordingPlan& plan) {
   const auto& lidar = plan.latency[static_cast<std::size_t>(Role::kLidar)];
   const std::optional<Duration> first = imu ? imu : lidar;
   if (!first) return;
-  warn_of_clocks(plan, imu ? topics_.imu : topics_.lidar,
-                 *first + from_seconds(delay_of(config_, imu ? Role::kImu : Role::kLidar)));
-  if (std::abs(*first) < kMaxClockDifference) return;
-  plan.arrival_shift = -*first;
+  const Duration latency =
+      *first + from_seconds(delay_of(config_, imu ? Role::kImu : Role::kLidar));
+  warn_of_clocks(plan, imu ? topics_.imu : topics_.lidar, latency);
+  if (std::abs(latency) < kMaxClockDifference) return;
+  plan.arrival_shift = -latency;
   notes_.push_back(
       fmt::format("the recorder's clock is {:.3f} s {} the sensors': arrivals are shifted by it",
-                  std::abs(to_seconds(*first)), *first > 0 ? "ahead of" : "behind"));
+                  std::abs(to_seconds(latency)), latency > 0 ? "ahead of" : "behind"));
+}
+
+/// An IMU alone is no motion: without legs the estimate begins before the first scan, while the
+/// robot stands as it would at the start.
+void RecordingSurvey::decide_begin(RecordingPlan& plan) {
+  constexpr Duration kLongAlone = 5 * kSecond, kStanding = 3 * kSecond;
+  const Seen& imu = seen(Role::kImu);
+  const Seen& lidar = seen(Role::kLidar);
+  if (plan.setup.has_legs || imu.stamps.empty() || lidar.stamps.empty()) return;
+  const Time first = lidar.stamps.front() + lidar.latencies.front();
+  const Duration alone = first - (imu.stamps.front() + imu.latencies.front());
+  if (alone < kLongAlone) return;
+  plan.begin = first - kStanding;
+  notes_.push_back(
+      fmt::format("scans begin {:.1f} s after the IMU: the estimate begins {:.0f} s "
+                  "before the first one",
+                  to_seconds(alone), to_seconds(kStanding)));
 }
 
 /// Warns of topics whose clock is not that of the reference.

@@ -15,7 +15,7 @@ namespace {
 constexpr double kUnitTolerance = 1e-3;      ///< of a norm that is 1
 constexpr double kRoundingTolerance = 0.06;  ///< of a norm from decimals that are rounded
 
-enum Fault : std::size_t { kNone, kNotFinite, kNoRotation, kRepeated, kBackwards, kFaults };
+enum Fault : std::size_t { kNone, kNotFinite, kNoRotation, kRepeated, kBackwards, kLost, kFaults };
 
 Fault fault_of(const StampedPose& pose, const std::optional<Time>& last) {
   const Pose& each = pose.pose;
@@ -25,10 +25,29 @@ Fault fault_of(const StampedPose& pose, const std::optional<Time>& last) {
   return last && pose.stamp < *last ? kBackwards : kNone;
 }
 
+/// The pose that a motion capture writes where it lost the body.
+bool is_unset(const Pose& pose) {
+  return pose.translation.isZero(0.0) && pose.rotation.vec().isZero(0.0);
+}
+
+/// Whether the pose is unset between others that are far from the origin.
+bool is_lost(const Trajectory& poses, std::size_t at, const Trajectory& usable) {
+  constexpr double kFar = 0.5;  // [m]
+  if (!is_unset(poses[at].pose) || usable.empty()) return false;
+  const auto next = std::find_if(poses.begin() + static_cast<std::ptrdiff_t>(at), poses.end(),
+                                 [](const StampedPose& each) { return !is_unset(each.pose); });
+  const bool back = next == poses.end() || next->pose.translation.norm() > kFar;
+  return back && usable.back().pose.translation.norm() > kFar;
+}
+
 std::string text_of(const std::array<std::size_t, kFaults>& counts) {
   constexpr std::array<const char*, kFaults> kTexts = {
-      "", "not finite", "without a unit quaternion", "with the stamp of the one before",
-      "stamped before the one before"};
+      "",
+      "not finite",
+      "without a unit quaternion",
+      "with the stamp of the one before",
+      "stamped before the one before",
+      "exactly at the origin while those around are not"};
   std::vector<std::string> parts;
   for (std::size_t i = kNotFinite; i < kFaults; ++i) {
     if (counts[i] > 0) parts.push_back(fmt::format("{} {}", counts[i], kTexts[i]));
@@ -58,13 +77,27 @@ void normalize_rounded(Trajectory& poses, const std::string& name,
                   name, rounded, poses.size(), smallest, largest));
 }
 
+/// Puts poses in order that were written in another one, as by several threads. A single step back
+/// is a recording that began anew.
+void sort_shuffled(Trajectory& poses, const std::string& name, std::vector<std::string>& notes) {
+  constexpr int kShuffled = 3;  // steps back
+  int back = 0;
+  for (std::size_t i = 1; i < poses.size(); ++i) back += poses[i].stamp < poses[i - 1].stamp;
+  if (back < kShuffled) return;
+  std::ranges::stable_sort(poses, {}, &StampedPose::stamp);
+  notes.push_back(fmt::format("{}: stamps go back {} times: sorted by stamp", name, back));
+}
+
 void drop_unusable(Trajectory& poses, const std::string& name, std::vector<std::string>& notes) {
+  sort_shuffled(poses, name, notes);
   Trajectory usable;
   usable.reserve(poses.size());
   std::array<std::size_t, kFaults> counts{};
   std::optional<Time> last;
-  for (const StampedPose& each : poses) {
-    const Fault fault = fault_of(each, last);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const StampedPose& each = poses[i];
+    Fault fault = fault_of(each, last);
+    if (fault == kNone && is_lost(poses, i, usable)) fault = kLost;
     ++counts[fault];
     if (fault != kNone) continue;
     last = each.stamp;

@@ -33,7 +33,7 @@ Heading heading_of(std::string_view cell) {
   const std::size_t last = heading.name.rfind('_');
   if (heading.unit.empty() && last != std::string::npos && last > 0) {
     const std::string unit = heading.name.substr(last + 1);
-    if (is_one_of(unit, {"ns", "us", "ms", "s", "sec", "nsec", "m"})) {
+    if (is_one_of(unit, {"ns", "us", "ms", "s", "sec", "nsec", "m", "cm", "mm", "deg", "rad"})) {
       heading.unit = unit;
       heading.name.resize(last);
     }
@@ -93,6 +93,21 @@ std::optional<std::size_t> stamp_column(const std::vector<Heading>& headings) {
   return found;
 }
 
+/// With roll, pitch and yaw where the header names all three.
+PoseColumns with_angles(const std::vector<Heading>& headings, PoseColumns columns) {
+  constexpr std::array<std::string_view, 3> kNames = {"roll", "pitch", "yaw"};
+  std::array<std::size_t, 3> angles{};
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    const auto found = std::ranges::find_if(
+        headings, [&](const Heading& each) { return last_part(each.name) == kNames[i]; });
+    if (found == headings.end()) return columns;
+    angles[i] = static_cast<std::size_t>(found - headings.begin());
+    columns.rpy_in_degrees = columns.rpy_in_degrees || is_one_of(found->unit, {"deg", "degrees"});
+  }
+  columns.rpy = angles;
+  return columns;
+}
+
 }  // namespace
 
 std::size_t PoseColumns::least() const {
@@ -101,6 +116,10 @@ std::size_t PoseColumns::least() const {
   if (quaternion_xyzw) {
     for (const std::size_t each : *quaternion_xyzw) last = std::max(last, each);
   }
+  if (rpy) {
+    for (const std::size_t each : *rpy) last = std::max(last, each);
+  }
+  if (matrix) last = std::max(last, *matrix + 11);
   return last + 1;
 }
 
@@ -121,20 +140,30 @@ std::optional<PoseColumns> named_columns(std::span<const std::string_view> heade
     const auto column = column_of(headings, kAxes[i], false);
     if (!column) return std::nullopt;
     columns.position[i] = *column;
+    const std::string& unit = headings[*column].unit;
+    columns.position_decimals = unit == "mm" ? 3 : unit == "cm" ? 2 : 0;
   }
   std::array<std::size_t, 4> quaternion{};
   for (std::size_t i = 0; i < 4; ++i) {
     const auto column = column_of(headings, kAxes[i], true);
-    if (!column) return columns;
+    if (!column) return with_angles(headings, columns);
     quaternion[i] = *column;
   }
   columns.quaternion_xyzw = quaternion;
   return columns;
 }
 
+bool names_degrees(std::span<const std::string_view> header) {
+  return std::ranges::any_of(header, [](std::string_view cell) {
+    const std::string name = last_part(heading_of(cell).name);
+    return is_one_of(name, {"lat", "latitude", "lon", "lng", "long", "longitude"});
+  });
+}
+
 PoseColumns ordered_columns(std::size_t columns, bool w_first) {
   PoseColumns ordered;
-  if (columns < 8) return ordered;
+  if (columns == 13 || columns == 17) ordered.matrix = 1;
+  if (columns < 8 || ordered.matrix) return ordered;
   ordered.quaternion_xyzw =
       w_first ? std::array<std::size_t, 4>{5, 6, 7, 4} : std::array<std::size_t, 4>{4, 5, 6, 7};
   return ordered;

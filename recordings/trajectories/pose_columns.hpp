@@ -18,8 +18,13 @@ struct PoseColumns {
   std::optional<std::size_t> nanoseconds;  ///< of the second that `stamp` counts
   StampUnit unit = StampUnit::kByDigits;
   std::array<std::size_t, 3> position = {1, 2, 3};
+  int position_decimals = 0;  ///< by which their unit lies below metres: of cm 2, of mm 3
   std::optional<std::array<std::size_t, 4>> quaternion_xyzw;
+  std::optional<std::array<std::size_t, 3>> rpy;  ///< in place of the quaternion
+  bool rpy_in_degrees = false;                    ///< else rad
+  std::optional<std::size_t> matrix;  ///< first of the 12 of a 3x4 matrix, row by row, for all
 
+  bool has_attitude() const { return quaternion_xyzw || rpy || matrix; }
   /// The number of columns that a row needs.
   std::size_t least() const;
 };
@@ -29,7 +34,11 @@ struct PoseColumns {
 /// no position. The first column of a name counts.
 std::optional<PoseColumns> named_columns(std::span<const std::string_view> header);
 
-/// The columns of a table without names: stamp, position, and from 8 columns on the quaternion.
+/// Whether the header names a latitude or longitude, which are no positions in metres.
+bool names_degrees(std::span<const std::string_view> header);
+
+/// The columns of a table without names: stamp, position, and from 8 columns on the quaternion; of
+/// 13 or 17 columns stamp and matrix, as of MulRan.
 PoseColumns ordered_columns(std::size_t columns, bool w_first);
 
 }  // namespace aims

@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -103,6 +106,45 @@ struct RowLayout {
     return text;
   }
 
+  double value(std::string_view cell) const {
+    return parse_number(number(cell), false).value_or(std::numeric_limits<double>::quiet_NaN());
+  }
+
+  static std::string text_of(const Eigen::Quaterniond& q) {
+    return fmt::format(" {} {} {} {}", q.x(), q.y(), q.z(), q.w());
+  }
+
+  /// " qx qy qz qw" of R = Rz(yaw) Ry(pitch) Rx(roll).
+  std::string angles_text(const std::vector<std::string_view>& cells) const {
+    const double unit = columns.rpy_in_degrees ? std::numbers::pi / 180.0 : 1.0;
+    Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+    for (int i = 2; i >= 0; --i) {
+      const auto axis = static_cast<std::size_t>(i);
+      q = q *
+          Eigen::AngleAxisd(unit * value(cells[(*columns.rpy)[axis]]), Eigen::Vector3d::Unit(i));
+    }
+    return text_of(q);
+  }
+
+  /// " x y z qx qy qz qw" of a 3x4 matrix.
+  std::string matrix_text(const std::vector<std::string_view>& cells) const {
+    Eigen::Matrix3d R;
+    std::string text;
+    for (Eigen::Index i = 0; i < 12; ++i) {
+      const std::string_view cell = cells[*columns.matrix + static_cast<std::size_t>(i)];
+      if (i % 4 == 3) {
+        text += ' ' + number(cell);
+      } else {
+        R(i / 4, i % 4) = value(cell);
+      }
+    }
+    // What is no rotation shows in the norm, which is 1 otherwise.
+    const double off = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+    const bool rotates = off < 0.01 && R.determinant() > 0.0;
+    return text + text_of(rotates ? Eigen::Quaterniond(R).normalized()
+                                  : Eigen::Quaterniond(0.0, 0.0, 0.0, 0.0));
+  }
+
   std::string row(const std::vector<std::string_view>& cells) const {
     std::string stamp = number(cells[columns.stamp]);
     if (columns.nanoseconds) {
@@ -112,9 +154,14 @@ struct RowLayout {
       stamp = stamp_in_seconds(stamp, decimals);
     }
     std::string text = std::move(stamp);
-    for (const std::size_t each : columns.position) text += ' ' + number(cells[each]);
+    if (columns.matrix) return text + matrix_text(cells) + '\n';
+    for (const std::size_t each : columns.position) {
+      text += ' ' + stamp_in_seconds(number(cells[each]), columns.position_decimals);
+    }
     if (columns.quaternion_xyzw) {
       for (const std::size_t each : *columns.quaternion_xyzw) text += ' ' + number(cells[each]);
+    } else if (columns.rpy) {
+      text += angles_text(cells);
     }
     return text + '\n';
   }
@@ -156,19 +203,63 @@ class TableReader {
     const auto cells = cells_of(line, separator);
     const bool names = cells.size() >= kPositionColumns && !is_number_with_comma(cells[0]);
     if (is_comment(line) || (!layout_ && names)) {
-      if (!named_ && cells.size() >= kPositionColumns) named_ = named_columns(cells);
+      if (!named_ && cells.size() >= kPositionColumns) take_header(cells, is_comment(line));
       return std::string("\n");
     }
-    if (!layout_) begin(cells, separator);
+    if (!layout_) {
+      if (auto begun = begin(cells, separator); !begun) return tl::unexpected(begun.error());
+    }
     // Blanks separate as many numbers as TUM or positions have, or columns that are named.
-    const bool odd =
-        separator == ' ' && !named_ && cells.size() != kPositionColumns && cells.size() != kColumns;
+    const bool odd = separator == ' ' && !named_ && !layout_->columns.matrix &&
+                     cells.size() != kPositionColumns && cells.size() != kColumns;
     if (odd || cells.size() < layout_->columns.least()) return wrong_number(cells.size());
     return layout_->row(cells);
   }
 
  private:
-  void begin(const std::vector<std::string_view>& cells, char separator) {
+  /// The names of the columns, each with its unit.
+  void take_header(std::vector<std::string_view> cells, bool comment) {
+    std::vector<std::string_view> names;
+    for (const std::string_view cell : cells) {
+      const bool unit = !names.empty() && (cell.starts_with('[') || cell.starts_with('('));
+      if (unit && cell.data() > names.back().data()) {
+        const auto end = static_cast<std::size_t>(cell.data() - names.back().data()) + cell.size();
+        names.back() = {names.back().data(), end};
+      } else {
+        names.push_back(cell);
+      }
+    }
+    named_ = named_columns(names);
+    in_degrees_ = in_degrees_ || names_degrees(names);
+    if (!named_ && comment) return;
+    of_comment_ = comment;
+    header_size_ = names.size();
+  }
+
+  /// Whether a comment names other columns than the rows have.
+  bool is_other_header(const std::vector<std::string_view>& cells) const {
+    std::size_t filled = cells.size();
+    while (filled > 0 && cells[filled - 1].empty()) --filled;
+    return named_ && of_comment_ && header_size_ != filled && header_size_ != cells.size();
+  }
+
+  Result<void> begin(const std::vector<std::string_view>& cells, char separator) {
+    if (in_degrees_ && !named_) {
+      return failure(
+          fmt::format("{}:{}: expected positions in metres, found latitude and "
+                      "longitude: convert them to a local frame (ENU, UTM)",
+                      name_, number_));
+    }
+    if (is_other_header(cells)) {
+      notes_.push_back(
+          fmt::format("{}: a comment names {} columns, the rows have {}: taken in "
+                      "order",
+                      name_, header_size_, cells.size()));
+      named_.reset();
+    } else if (!named_ && header_size_ > 0) {
+      notes_.push_back(
+          fmt::format("{}: the header names no x, y, z: the columns are taken in order", name_));
+    }
     layout_ = RowLayout{separator, {}, 0};
     const auto unit = unit_by_digits(cells[0]);
     layout_->columns =
@@ -185,14 +276,15 @@ class TableReader {
     const bool seconds = decimals_of(columns.unit) == 0 && !columns.nanoseconds;
     layout_->decimals = seconds ? decimals_ : decimals_of(columns.unit);
     const std::size_t read = kPositionColumns + (columns.nanoseconds ? 1 : 0);
-    if (!columns.quaternion_xyzw && cells.size() > read) {
+    if (!columns.has_attitude() && cells.size() > read) {
       notes_.push_back(fmt::format("{}: {} {} of {} columns are read: stamp and position", name_,
                                    named_ ? "by their names" : "the first", read, cells.size()));
     }
+    return {};
   }
 
   tl::unexpected<Error> wrong_number(std::size_t found) const {
-    const bool positions = !layout_->columns.quaternion_xyzw;
+    const bool positions = !layout_->columns.has_attitude();
     if (layout_->separator == ' ' && !named_) {
       return failure(fmt::format(
           "{}:{}: expected 8 columns (TUM: stamp x y z qx qy qz qw), 12 (KITTI poses) or 4 "
@@ -208,9 +300,33 @@ class TableReader {
   int decimals_;  ///< of stamps of no other unit
   std::vector<std::string>& notes_;
   std::optional<PoseColumns> named_;
+  std::size_t header_size_ = 0;  ///< columns that it names
+  bool of_comment_ = false;      ///< the header is a comment
+  bool in_degrees_ = false;      ///< the header names latitude or longitude
   std::optional<RowLayout> layout_;
   int number_ = 0;
 };
+
+}  // namespace
+
+namespace {
+
+/// Whether a comment in front of rows of so many numbers names columns of another order or unit.
+bool names_other_order(std::string_view text, std::size_t count) {
+  while (!text.empty()) {
+    const std::string_view line = take_line(text);
+    if (!is_comment(line)) return false;
+    const auto cells = cells_of(line, ' ');
+    if (names_degrees(cells)) return true;
+    const auto named = cells.size() == count ? named_columns(cells) : std::nullopt;
+    if (!named) continue;
+    const PoseColumns usual = ordered_columns(count, false);
+    return named->stamp != usual.stamp || named->position != usual.position ||
+           named->position_decimals != 0 ||
+           (named->quaternion_xyzw && named->quaternion_xyzw != usual.quaternion_xyzw);
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -226,6 +342,7 @@ bool is_pose_table(std::string_view text) {
   if (count != kPositionColumns && count != kColumns && count != 12) return true;
   if (!std::ranges::all_of(words, [](auto word) { return parse_number(word, false).has_value(); }))
     return true;
+  if (names_other_order(text, count)) return true;
   return count != 12 && unit_by_digits(words[0]) != StampUnit::kSeconds;
 }
 

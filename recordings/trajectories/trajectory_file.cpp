@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/files/atomic_file.hpp"
 #include "core/files/kitti.hpp"
 #include "core/files/number_lines.hpp"
+#include "core/files/text_file.hpp"
 #include "recordings/source/recording_file.hpp"
 #include "recordings/trajectories/bag_trajectory.hpp"
 #include "recordings/trajectories/pose_cleaning.hpp"
@@ -103,12 +103,9 @@ std::string in_seconds(std::string_view text, int decimals) {
 }
 
 Result<TrajectoryFile> read_text(const fs::path& file, const TrajectoryFileOptions& options) {
-  const auto text = read_file(file);
+  const auto text = read_text_file(file);
   if (!text) return tl::unexpected(text.error());
   const std::string name = file.string();
-  if (text->starts_with("\xff\xfe") || text->starts_with("\xfe\xff")) {
-    return failure(name + ":1: expected text in UTF-8, found UTF-16: save the file as UTF-8");
-  }
   TrajectoryFile result;
   result.file = file;
   const bool table = is_pose_table(*text);

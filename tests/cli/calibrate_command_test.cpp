@@ -49,6 +49,17 @@ TEST_F(Calibrate, ARunStartsFromTheFileAndAnotherRobotIsAWarning) {
   EXPECT_TRUE(holds(other, "is of another robot: legs of other dimensions")) << other.output;
 }
 
+TEST_F(Calibrate, ARecordingCountsOnceAndATableIsOne) {
+  write("a.bag", "no bag");
+  const Outcome twice = aims("calibrate a.bag ./a.bag --quiet -o robot.yaml");
+  EXPECT_EQ(twice.exit_code, 2) << twice.output;
+  EXPECT_TRUE(holds(twice, "./a.bag: named twice")) << twice.output;
+  write("walk.yaml", "file: walk.csv\ntime: t\ngyro: [a, b, c]\naccelerometer: [d, e, f]\n");
+  const Outcome table = aims("calibrate walk.yaml --quiet -o robot.yaml");
+  EXPECT_EQ(table.exit_code, 2) << table.output;
+  EXPECT_TRUE(holds(table, "walk.csv: cannot be read")) << table.output;
+}
+
 TEST_F(Calibrate, AFileThatIsNoneIsOneError) {
   scenario(testing::kMetreWalk);
   for (const char* command : {"run my.yaml", "suite my.yaml", "estimate my.bag"}) {

@@ -67,14 +67,16 @@ TEST_F(EstimateHealth, WithoutALidarThereArePosesAndItIsSaid) {
 
 TEST_F(EstimateHealth, AnAssumedTransformIsAWarningAtTheEndAndInTheHealth) {
   const Outcome outcome = aims(
-      "estimate walk.bag --estimators leg --set recording.lidar_frame=nowhere --no-pictures "
+      "estimate walk.bag --estimators lio,leg --set recording.lidar_frame=nowhere --no-pictures "
       "--quiet --out out");
   const auto warned = outcome.output.find("warning: NO TRANSFORM from");
   ASSERT_NE(warned, std::string::npos) << outcome.output;
   EXPECT_GT(warned, outcome.output.find("estimator  ")) << "after the table";
-  const std::string rows = read_file(folder_.path() / "out" / "leg.health.csv").value();
+  const std::string rows = read_file(folder_.path() / "out" / "lio.health.csv").value();
   EXPECT_EQ(rows.find(",healthy,"), std::string::npos) << rows;
-  EXPECT_NE(rows.find(",degraded,T_imu_lidar unknown"), std::string::npos) << rows;
+  EXPECT_NE(rows.find("T_imu_lidar unknown"), std::string::npos) << rows;
+  const std::string legs = read_file(folder_.path() / "out" / "leg.health.csv").value();
+  EXPECT_EQ(legs.find("T_imu_lidar"), std::string::npos) << "it has no LiDAR" << legs;
   EXPECT_TRUE(holds(outcome, "page: out/page.html")) << outcome.output;
 }
 

@@ -154,6 +154,27 @@ TEST_F(Benchmark, NewerCollegeIsAnOusterWithPoses) {
   EXPECT_LT(score_of("newer_college"), kRight);
 }
 
+TEST_F(Benchmark, NewerCollegeInOneFolderHasTheTruthOfEachSequenceByItsName) {
+  test::DataSet set{"/os_cloud_node/points", "os_sensor", "/os_cloud_node/imu", "os_imu",
+                    CloudLayout::kOuster};
+  set.T_imu_lidar = kOuster;
+  for (const char* name : {"quad-easy", "math-hard"}) {
+    sequence(set, std::string("2021-07-01-10-37-38-") + name);
+  }
+  std::ofstream csv(data() / "gt-nc-quad-easy.csv");
+  csv << "#sec,nsec,x,y,z,qx,qy,qz,qw\n";
+  for (const StampedPose& each : truth({0, 0, 0}, true)) {
+    const Eigen::Vector3d& p = each.pose.translation;
+    const Eigen::Quaterniond& q = each.pose.rotation;
+    csv << fmt::format("{},{},{},{},{},{},{},{},{}\n", each.stamp / kSecond, each.stamp % kSecond,
+                       p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
+  }
+  csv.close();
+  EXPECT_LT(score_of("newer_college", "2021-07-01-10-37-38-quad-easy"), kRight);
+  const Json all = results();
+  EXPECT_TRUE(all["sequences"][0]["ours"]["lio"].is_null()) << "math-hard has no truth";
+}
+
 TEST_F(Benchmark, NewerCollege2020HasSecondsAndNanosecondsOfItsCamera) {
   test::DataSet set{"/os1_cloud_node/points", "os1_lidar", "/os1_cloud_node/imu", "os1_imu",
                     CloudLayout::kOuster};
@@ -224,6 +245,32 @@ TEST_F(Benchmark, Hilti2023HasItsOwnClassesOfPoints) {
   EXPECT_LE(score, 100.0);
 }
 
+TEST_F(Benchmark, Hilti2023RobotMeasuresControlPointsWithItsLidar) {
+  Eigen::Matrix4d T_lidar_imu;
+  T_lidar_imu << 0.9993809082422996, -0.003397272928783347, 0.03501797791768812,
+      -0.13406141062872667, -0.0036988105559615262, -0.9999566093030182, 0.008549755065630918,
+      -0.010899820828818012, 0.03498741261178718, -0.0086739868491098, -0.9993501102771111,
+      0.006109253103427932, 0, 0, 0, 1;
+  const Eigen::Matrix4d T = T_lidar_imu.inverse();
+  test::DataSet set{"/rslidar_points", "rslidar", "/imu/data", "imu", CloudLayout::kHesai};
+  set.T_imu_lidar = mount(T.topLeftCorner<3, 3>(), T.topRightCorner<3, 1>());
+  set.T_imu_lidar.rotation.normalize();
+  sequence(set, "site2_robot_1");
+  fs::create_directories(data() / "groundtruth_2023");
+  Trajectory surveyed, measured;
+  for (std::size_t i = 0; i < walked_->truth.size(); i += 300) {
+    const Time stamp = walked_->truth[i].stamp + test::kDataEpoch;
+    const Eigen::Vector3d in_lidar(-0.8 - 0.05 * static_cast<double>(i % 700) / 100.0,
+                                   i % 2 == 0 ? 0.2 : -1.1, 0.3);
+    measured.push_back({stamp, {Eigen::Quaterniond::Identity(), in_lidar}});
+    const Eigen::Vector3d point = walked_->truth[i].pose * (set.T_imu_lidar * in_lidar);
+    surveyed.push_back({stamp, {Eigen::Quaterniond::Identity(), point}});
+  }
+  ASSERT_TRUE(write_tum(data() / "groundtruth_2023" / "site2_robot_1.txt", surveyed));
+  ASSERT_TRUE(write_tum(data() / "groundtruth_2023" / "site2_robot_1_lidar.txt", measured));
+  EXPECT_GE(score_of("hilti23_robot", "site2_robot_1"), 25.0) << "5 of 20 below 6 cm";
+}
+
 TEST_F(Benchmark, NtnuTunnelsArePacketsOfAnOusterWithMetadata) {
   test::write_ouster_packets(data() / "tunnel.bag", 30);
   // It stands.
@@ -257,6 +304,32 @@ TEST_F(Benchmark, LegKiloStampsTheEndOfAScanAndEndsWhereItBegan) {
   const Eigen::Vector3d way =
       walked_->truth.back().pose.translation - walked_->truth.front().pose.translation;
   EXPECT_NEAR(score_of("leg_kilo", "corridor"), way.norm(), kRight);
+}
+
+TEST_F(Benchmark, LegKiloHasTheLegsOfAHighState) {
+  test::DataSet set{"/points_raw", "velodyne", "/imu_raw", "imu"};
+  set.stamped_at_end = set.high_state = true;
+  set.T_imu_lidar = mount(Eigen::Matrix3d::Identity(), {0, 0, 0.20});
+  sequence(set, "corridor");
+  const auto run =
+      aims("benchmark leg_kilo data --estimators leg,aims_d --no-page --out out --jobs 1");
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  const double way =
+      (walked_->truth.back().pose.translation - walked_->truth.front().pose.translation).norm();
+  const Json ours = results()["sequences"][0]["ours"];
+  EXPECT_NEAR(ours["leg"].get<double>(), way, 0.3) << "of 8 m, by legs and gyro alone";
+  EXPECT_NEAR(ours["aims_d"].get<double>(), way, kRight);
+  EXPECT_NE(run.output.find("repetitions are left out"), std::string::npos) << run.output;
+}
+
+TEST_F(Benchmark, LegKiloHasNoEndForOtherRoutes) {
+  test::DataSet set{"/points_raw", "velodyne", "/imu_raw", "imu"};
+  set.stamped_at_end = true;
+  set.T_imu_lidar = mount(Eigen::Matrix3d::Identity(), {0, 0, 0.20});
+  sequence(set, "park");
+  const auto run = aims("benchmark leg_kilo data --estimators lio --no-page --out out --jobs 1");
+  EXPECT_NE(run.output.find("park: no truth: not scored; looked for park.txt"), std::string::npos)
+      << run.output;
 }
 
 TEST_F(Benchmark, DiterPlusPlusIsAnOusterOnARobot) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <memory>
@@ -12,12 +13,14 @@
 #include <variant>
 
 #include "core/files/tum.hpp"
+#include "core/leg_kinematics.hpp"
 #include "recordings/bag/bag_writer.hpp"
 #include "recordings/messages/message_encoding.hpp"
 #include "recordings/messages/message_types.hpp"
 #include "tests/independent/recording.hpp"
 #include "tests/recordings/pcap/room_packets.hpp"
 #include "tests/recordings/stream/recorded_deliveries.hpp"
+#include "tests/recordings/stream/robot_messages.hpp"
 
 namespace aims::test {
 namespace {
@@ -159,6 +162,77 @@ void write_delivery(const Delivery& each, const DataSet& data, const Pose& T_new
   }
 }
 
+/// The feet of a trot under the body as it really moved: those that stand keep their place in the
+/// world.
+class TrottingFeet {
+ public:
+  static constexpr double kHalfStep = 0.25, kHeight = 0.28;  // [s], [m]
+  static constexpr LegGeometry kGo1 = {0.1881, 0.04675, 0.08, 0.213, 0.213, 0.022};
+
+  explicit TrottingFeet(const Trajectory& truth) : truth_(truth) {}
+
+  static bool stands(int leg, double time) {
+    const bool first = std::fmod(time, 2.0 * kHalfStep) < kHalfStep;
+    return first == (leg == 0 || leg == 3);
+  }
+
+  /// In the base [m].
+  Eigen::Vector3d foot(int leg, double time) const {
+    const double phase = std::fmod(time, kHalfStep) / kHalfStep;
+    const double begin = time - phase * kHalfStep;
+    if (stands(leg, time)) return in_base(leg, begin + 0.5 * kHalfStep, time);
+    const Eigen::Vector3d last = in_base(leg, begin - 0.5 * kHalfStep, begin);
+    const Eigen::Vector3d next = in_base(leg, begin + 1.5 * kHalfStep, begin + kHalfStep);
+    const double lift = 0.06 * std::sin(M_PI * phase);
+    return (1.0 - phase) * last + phase * next + Eigen::Vector3d(0.0, 0.0, lift);
+  }
+
+  JointVector angles(double time) const {
+    JointVector q;
+    for (int leg = 0; leg < kLegCount; ++leg) {
+      q.segment<3>(3 * leg) = leg_angles(leg, foot(leg, time), kGo1);
+    }
+    return q;
+  }
+
+ private:
+  Pose body(double time) const {
+    const Time stamp = truth_.front().stamp + from_seconds(time);
+    return *pose_at(truth_, std::clamp(stamp, truth_.front().stamp, truth_.back().stamp));
+  }
+
+  /// The foot that stands below its hip at `middle`, seen from the base at `time`.
+  Eigen::Vector3d in_base(int leg, double middle, double time) const {
+    Eigen::Vector3d below = hip_in_base(leg, kGo1);
+    below.y() += side_of(leg) * kGo1.abduction;
+    below.z() -= kHeight;
+    return body(time).inverse() * (body(middle) * below);
+  }
+
+  const Trajectory& truth_;
+};
+
+void write_high_states(const Walked& walked, Bags& bags) {
+  const TrottingFeet feet(walked.truth);
+  const RobotMessage message = leg_kilo_high_state();
+  const Time first = walked.truth.front().stamp;
+  const int samples = static_cast<int>((walked.truth.back().stamp - first) / (20 * kMillisecond));
+  for (int k = 0; k < samples; ++k) {
+    const double time = 0.02 * k + 0.003;  // not at touchdown
+    RobotSample sample;
+    sample.number = k;
+    sample.angles = feet.angles(time);
+    sample.rates = (feet.angles(time + 1e-4) - sample.angles) / 1e-4;
+    for (int leg = 0; leg < kLegCount; ++leg) {
+      sample.contact[static_cast<std::size_t>(leg)] = TrottingFeet::stands(leg, time);
+    }
+    for (int i = 0; i < 10; ++i) {
+      sample.stamp = first + kDataEpoch + (k * 20 + i * 2 + 3) * kMillisecond;
+      bags.write("/high_state", message.type, sample.stamp + kMillisecond, message.encode(sample));
+    }
+  }
+}
+
 }  // namespace
 
 Walked walk_of(const fs::path& folder, double length) {
@@ -188,6 +262,7 @@ void write_sequence(const Walked& walked, const DataSet& data, const std::string
   }
   const Pose T_new_old = data.T_imu_lidar.inverse() * walked.T_imu_lidar;
   for (const Delivery& each : walked.deliveries) write_delivery(each, data, T_new_old, bags);
+  if (data.high_state) write_high_states(walked, bags);
   if (data.prism_topic.empty()) return;
   for (const StampedPose& each : walked.truth) {
     const Time stamp = each.stamp + kDataEpoch;

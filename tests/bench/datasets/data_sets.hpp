@@ -34,6 +34,7 @@ struct DataSet {
   bool bag_per_topic = false;       ///< a folder of them per sequence
   std::string prism_topic = {};     ///< geometry_msgs/PointStamped
   std::string odometry_topic = {};  ///< nav_msgs/Odometry of the legs
+  bool high_state = false;          ///< unitree_legged_msgs/HighState at 500 Hz, new every 20 ms
 };
 
 /// Writes the walk as the sequence `name` of the data set into the folder.

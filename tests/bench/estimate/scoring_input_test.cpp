@@ -227,6 +227,26 @@ TEST_F(ScoringInputs, StampsOfAnotherUnitAreNamedAndRead) {
   EXPECT_LT(*score_trajectories(*read_scoring_input(request))->estimates[0].scores.ate_m, 1e-12);
 }
 
+TEST_F(ScoringInputs, QuaternionsWithWFirstAreNamedOnEitherSide) {
+  // x y z w of the text are w x y z of the pose.
+  Trajectory written = bend();
+  for (StampedPose& each : written) {
+    const Eigen::Quaterniond q = each.pose.rotation;
+    each.pose.rotation = Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y());
+  }
+  const std::string w_first = file("w_first.tum", tum_text(written));
+  ScoringRequest of_truth = plain(), of_estimate = plain();
+  of_truth.truth = w_first;
+  of_estimate.estimates = {w_first};
+  for (const ScoringRequest& request : {of_truth, of_estimate}) {
+    const auto scored = score_trajectories(*read_scoring_input(request));
+    ASSERT_TRUE(scored);
+    EXPECT_TRUE(std::ranges::any_of(scored->notes, [](const std::string& note) {
+      return note.find("quaternions are read as w, x, y, z") != std::string::npos;
+    }));
+  }
+}
+
 TEST_F(ScoringInputs, ATurnedBodyFrameIsNamedWithTheExtrinsicThatCorrectsIt) {
   const Pose T_body_estimate = {so3_exp(Eigen::Vector3d(0.0, 0.0, 0.5 * std::numbers::pi)),
                                 Eigen::Vector3d::Zero()};

@@ -33,6 +33,23 @@ Trajectory positions_of(Trajectory poses, const Eigen::Vector3d& lever) {
   return poses;
 }
 
+TEST(MovedToPoints, EachStampHasTheMeasuredPointExactly) {
+  Trajectory walk, points;
+  for (int k = 0; k <= 400; ++k) walk.push_back({k * 100 * kMillisecond, swaying_eight(0.1 * k)});
+  // Between two poses of the walk.
+  for (int k = 1; k < 8; ++k) {
+    const Eigen::Vector3d p(-0.8, 0.3 * k, k % 2 == 0 ? 0.2 : 0.4);
+    points.push_back({k * 5 * kSecond + 30 * kMillisecond, {Eigen::Quaterniond::Identity(), p}});
+  }
+  const Trajectory moved = moved_to_points(walk, points);
+  EXPECT_EQ(moved.size(), walk.size() + points.size());
+  for (const StampedPose& each : points) {
+    const Eigen::Vector3d expected = *pose_at(walk, each.stamp) * each.pose.translation;
+    EXPECT_NEAR((pose_at(moved, each.stamp)->translation - expected).norm(), 0.0, 1e-12);
+  }
+  EXPECT_EQ(moved_to_points(walk, {}).size(), walk.size());
+}
+
 /// Smallest RMSE over all headings by brute force, the means of both made equal, as evo's formula
 /// sqrt(mean |R p_est + t - p_ref|^2).
 double brute_force_ate(const Trajectory& estimate, const Trajectory& truth) {

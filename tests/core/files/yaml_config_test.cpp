@@ -55,6 +55,26 @@ points:
   EXPECT_EQ(c.points[1].tags, std::vector<std::string>{"x"});
 }
 
+struct Matrix {
+  std::vector<double> entries;
+};
+
+void describe(Fields& f, Matrix& c) {
+  f.numbers("entries", c.entries, {.unit = "-", .range = within(9.0), .meaning = "Row by row."});
+}
+
+TEST(YamlConfig, RowsOfAMatrixAreItsNumbers) {
+  const std::vector<double> entries = {1.0, 2.0, 3.0, 4.0};
+  for (const char* text : {"entries: [1, 2, 3, 4]\n", "entries: [[1, 2], [3, 4]]\n",
+                           "entries:\n  - [1, 2]\n  - [3, 4]\n"}) {
+    Matrix matrix;
+    ASSERT_TRUE(load_config_text(text, "s.yaml", matrix)) << text;
+    EXPECT_EQ(matrix.entries, entries);
+  }
+  Matrix matrix;
+  EXPECT_FALSE(load_config_text("entries: [[[1, 2]], [3, 4]]\n", "s.yaml", matrix));
+}
+
 TEST(YamlConfig, WhatIsNotNamedKeepsItsValue) {
   Sample c;
   c.inner.count = 2;

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <numbers>
+#include <tuple>
 
 #include "recordings/messages/message_types.hpp"
 #include "tests/recordings/stream/recorded_deliveries.hpp"
@@ -46,6 +48,34 @@ Recording read_untimed(const std::filesystem::path& bag, double sense, Duration 
   }
   robot.close();
   return test::read_recording(bag, config);
+}
+
+TEST_F(CloudTimes, CoordinatesInCentimetresOrMillimetresAreNamedAndConverted) {
+  for (const auto& [unit, name, scale] :
+       {std::tuple(PointUnit::kCentimetres, "cm", 100.0F), {PointUnit::kMillimetres, "mm", 1e3F}}) {
+    std::filesystem::remove(bag());
+    RobotRecording robot(bag());
+    robot.add_transforms(kMounted);
+    robot.add_imu(kStart, 30);
+    for (int k = 0; k < 4; ++k) {
+      const Time stamp = kStart + k * 100 * kMillisecond;
+      RawCloud cloud = untimed_cloud(stamp, 1.0);
+      for (std::size_t i = 0; i < 200; ++i) {
+        std::array<float, 3> p;
+        std::memcpy(p.data(), cloud.data.data() + i * cloud.point_step, sizeof(p));
+        for (float& each : p) each *= scale;
+        std::memcpy(cloud.data.data() + i * cloud.point_step, p.data(), sizeof(p));
+      }
+      robot.add_cloud(cloud, stamp + 110 * kMillisecond);
+    }
+    robot.close();
+    EXPECT_TRUE(test::read_recording(bag()).noted(std::string("recording.point_unit=") + name));
+    RecordingConfig config;
+    config.point_unit = unit;
+    const Recording right = test::read_recording(bag(), config);
+    EXPECT_FALSE(right.noted("half of the points are farther"));
+    EXPECT_NEAR(test::scans_of(right.deliveries).at(0)->points.at(0).position.norm(), 5.0F, 1e-4F);
+  }
 }
 
 TEST_F(CloudTimes, PointsWithoutTimeAreTimedByAzimuth) {

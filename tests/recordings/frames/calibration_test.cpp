@@ -173,7 +173,19 @@ TEST(Calibration, NumbersOfAConfigurationAreTheSameInEitherDirection) {
        {"rotation_rpy_deg",
         "[" + flat(Eigen::Vector3d(kRoll, kPitch, kYaw) * (180.0 / std::numbers::pi)) + "]"},
        {"override_tf", "true"}},
-      {{"static_transform", fmt::format("0.1 -0.2 0.35 {} {} {} imu lidar", kYaw, kPitch, kRoll)}}};
+      {{"translation", t},
+       {"rotation_rpy_deg",
+        "[" + flat(Eigen::Vector3d(kRoll, kPitch, kYaw) * (180.0 / std::numbers::pi)) + "]"}},
+      {{"translation", t_inverse},
+       {"quaternion_wxyz", fmt::format("[{}, {}, {}, {}]", q.w(), q.x(), q.y(), q.z())},
+       {"direction", "imu_in_lidar"}},
+      {{"static_transform", fmt::format("0.1 -0.2 0.35 {} {} {} imu lidar", kYaw, kPitch, kRoll)}},
+      // Of the IMU in the LiDAR, by its frames, whether or not the direction says so too.
+      {{"static_transform", fmt::format("{} {} {} {} {} {} {} os_lidar imu_link", inverse(0, 3),
+                                        inverse(1, 3), inverse(2, 3), q.x(), q.y(), q.z(), q.w())}},
+      {{"static_transform", fmt::format("{} {} {} {} {} {} {} os_lidar imu_link", inverse(0, 3),
+                                        inverse(1, 3), inverse(2, 3), q.x(), q.y(), q.z(), q.w())},
+       {"direction", "imu_in_lidar"}}};
   for (const Settings& settings : all) {
     RecordingConfig config;
     auto fields = fields_of(config);
@@ -185,6 +197,26 @@ TEST(Calibration, NumbersOfAConfigurationAreTheSameInEitherDirection) {
     ASSERT_TRUE(plain);
     expect_right(configured_extrinsic(plain->T_imu_lidar, "T_imu_lidar"), "plain");
   }
+}
+
+TEST(Calibration, FramesThatContradictTheDirectionAreAnError) {
+  ExtrinsicConfig config;
+  config.static_transform = "0.1 0 0 0 0 0 imu lidar";
+  config.direction = ExtrinsicDirection::kImuInSensor;
+  const auto pose = configured_extrinsic(config, "T_imu_lidar");
+  ASSERT_FALSE(pose);
+  EXPECT_NE(pose.error().message.find("which the direction contradicts"), std::string::npos);
+}
+
+TEST(Calibration, FilesAreFoundBesideTheConfigurationThatNamesThem) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "calibration.yaml") << "a: 1\n";
+  RecordingConfig config;
+  config.T_imu_lidar.file = "calibration.yaml";
+  config.T_imu_base.file = "/absolute.yaml";
+  find_calibrations(config, folder.path());
+  EXPECT_EQ(config.T_imu_lidar.file, (folder.path() / "calibration.yaml").string());
+  EXPECT_EQ(config.T_imu_base.file, "/absolute.yaml");
 }
 
 TEST(Calibration, WhatIsNoRigidTransformIsRefusedByItsPlace) {

@@ -53,5 +53,14 @@ TEST(BagWarnings, WithoutAnImuRecordTimesAreTheReference) {
   EXPECT_EQ(advices(info, "/odom: stamps are 7.000 s before the record times"), 1U);
 }
 
+TEST(BagWarnings, AnImuOfAHundredHertzThatMeasuresALittleLessIsFastEnough) {
+  BagInfo info = recording(0.0, 0.1, 0.0);
+  info.imus.emplace_back().topic = "/imu";
+  info.topics[0].rate_hz = 99.7;
+  EXPECT_EQ(advices(info, "footfalls alias"), 0U);
+  info.topics[0].rate_hz = 62.0;
+  EXPECT_EQ(advices(info, "/imu: 62 Hz; footfalls alias"), 1U);
+}
+
 }  // namespace
 }  // namespace aims

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace aims {
 namespace {
 
@@ -48,6 +50,30 @@ TEST(LegStream, CombinesContactsOfTheSameInstantElseTheLastOnes) {
   ASSERT_TRUE(with_last);
   EXPECT_EQ(with_last->stamp, 20 * kMillisecond);
   EXPECT_TRUE(counts.empty());
+}
+
+TEST(LegStream, ATwistOfZeroIsThatOfThePoses) {
+  // A circle of 2 m at 0.5 m/s.
+  const auto odometry = [](double time) {
+    LegOdometrySample sample;
+    sample.stamp = from_seconds(time);
+    const double yaw = 0.25 * time;
+    sample.T_odom_base = {yaw_rotation(yaw), {2.0 * std::sin(yaw), 2.0 - 2.0 * std::cos(yaw), 0.0}};
+    return sample;
+  };
+  LegStreamConfig config;
+  config.source = LegSource::kOdometry;
+  LegStream legs(config);
+  EventCounts counts;
+  EXPECT_TRUE(legs.add_odometry(odometry(0.0), counts).linear_velocity.isZero(0.0));
+  const LegOdometrySample moving = legs.add_odometry(odometry(0.02), counts);
+  EXPECT_NEAR((moving.linear_velocity - Eigen::Vector3d(0.5, 0.0, 0.0)).norm(), 0.0, 1e-5);
+  EXPECT_NEAR((moving.angular_velocity - Eigen::Vector3d(0.0, 0.0, 0.25)).norm(), 0.0, 1e-9);
+  EXPECT_EQ(counts.at("legs_twist_by_pose_differences"), 1);
+  LegOdometrySample standing = odometry(0.02);
+  standing.stamp = from_seconds(0.04);
+  EXPECT_TRUE(legs.add_odometry(standing, counts).linear_velocity.isZero(0.0));
+  EXPECT_EQ(counts.at("legs_twist_by_pose_differences"), 1);
 }
 
 TEST(LegStream, KeepsTheLastVelocityWithoutContacts) {

@@ -2,8 +2,11 @@
 // Legs of a recording without leg odometry.
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "core/leg_kinematics.hpp"
 #include "recordings/messages/message_types.hpp"
+#include "tests/recordings/legs/trot.hpp"
 #include "tests/recordings/stream/recorded_deliveries.hpp"
 #include "tests/recordings/stream/robot_recording.hpp"
 
@@ -82,6 +85,146 @@ TEST_F(RecordedJoints, TheRigHasTheGeometryAndTheRatesOfTheRecording) {
   EXPECT_EQ(setup.rig.leg_geometry, config.leg_geometry);
   EXPECT_NEAR(setup.rig.imu_rate_hz, setup.imu_rate_hz.value(), 0.1 * setup.rig.imu_rate_hz);
   EXPECT_EQ(setup.rig.leg_rate_hz, SensorRig().leg_rate_hz) << "no packets: the nominal rate";
+}
+
+/// A trot recorded as sensor_msgs/JointState with torques of the knees, and forces of the feet.
+struct TrotOptions {
+  bool named = true;
+  double unit = 1.0;  ///< of the angles, in rad
+  std::array<int, kLegCount> legs = {0, 1, 2, 3};
+  std::array<int, kLegCount> feet = {0, 1, 2, 3};
+  bool forces = true;
+};
+
+MessageBytes trot_joints(Time stamp, const test::Trot& trot, double time,
+                         const TrotOptions& options) {
+  MessageBytes out;
+  out.put(std::uint32_t{0});
+  out.time(stamp);
+  out.text("base");
+  std::vector<std::string> names;
+  std::vector<double> position, velocity, effort;
+  const JointVector q = trot.angles(time), dq = trot.rates(time);
+  for (const int leg : options.legs) {
+    constexpr std::array<const char*, kLegCount> kNames = {"FL", "FR", "RL", "RR"};
+    constexpr std::array<const char*, 3> kParts = {"_hip", "_thigh", "_calf"};
+    for (int part = 0; part < 3; ++part) {
+      if (options.named) {
+        names.push_back(std::string(kNames[static_cast<std::size_t>(leg)]) +
+                        kParts[static_cast<std::size_t>(part)]);
+      }
+      position.push_back(q[3 * leg + part] / options.unit);
+      velocity.push_back(dq[3 * leg + part] / options.unit);
+      const bool bears = part == 2 && trot.contact(time)[static_cast<std::size_t>(leg)];
+      effort.push_back(bears ? -11.0 : 0.4);
+    }
+  }
+  out.length(names.size());
+  for (const std::string& name : names) out.text(name);
+  for (const auto* each : {&position, &velocity, &effort}) out.array(*each);
+  return out;
+}
+
+class RecordedTrot : public test::RecordingTest {
+ protected:
+  Recording read(const TrotOptions& options, RecordingConfig config = {}) {
+    const auto file = folder_.path() / (std::to_string(count_++) + ".bag");
+    RobotRecording robot(file);
+    robot.add_transforms(kMounted);
+    const MessageType forces = {"std_msgs/Float32MultiArray", "6a40e0ffa6a17a503ac3f8616991b1f6",
+                                "MultiArrayLayout layout\nfloat32[] data\n" + std::string(80, '=') +
+                                    "\nMSG: std_msgs/MultiArrayLayout\nMultiArrayDimension[] dim\n"
+                                    "uint32 data_offset\n" +
+                                    std::string(80, '=') +
+                                    "\nMSG: std_msgs/MultiArrayDimension\nstring label\n"
+                                    "uint32 size\nuint32 stride\n"};
+    const test::Trot trot;
+    for (int k = 0; k < 400; ++k) {
+      const Time now = kStart + k * 10 * kMillisecond;
+      const double time = 0.01 * k + 0.003;
+      robot.add_imu(now, 1);
+      if (options.forces) {
+        MessageBytes message;
+        message.length(0);
+        message.put(std::uint32_t{0});
+        message.length(std::size_t{kLegCount});
+        for (const int leg : options.feet) {
+          message.put(trot.contact(time)[static_cast<std::size_t>(leg)] ? 60.0F : 0.0F);
+        }
+        robot.add("/foot_forces", forces, now, message);
+      }
+      robot.add("/joint_states", joint_state_type(), now, trot_joints(now, trot, time, options));
+    }
+    robot.close();
+    config.topics.lidar = "none";
+    if (options.forces) config.topics.contacts = "/foot_forces";
+    return test::read_recording(file, config);
+  }
+
+  /// Mean velocity of the legs along x [m/s].
+  static double speed(const Recording& read) {
+    double sum = 0.0;
+    const auto legs = test::legs_of(read.deliveries);
+    for (const LegOdometrySample& each : legs) sum += each.linear_velocity.x();
+    return sum / static_cast<double>(std::max<std::size_t>(1, legs.size()));
+  }
+
+  int count_ = 0;
+};
+
+TEST_F(RecordedTrot, JointsWithoutNamesAreGivenByTheirIndices) {
+  RecordingConfig config;
+  for (const int first : {3, 0, 9, 6}) {  // the array has FR FL RR RL
+    for (int part = 0; part < 3; ++part) config.joint_names.push_back(std::to_string(first + part));
+  }
+  const Recording right =
+      read({.named = false, .legs = {1, 0, 3, 2}, .feet = {0, 1, 2, 3}}, config);
+  ASSERT_EQ(right.error, "");
+  EXPECT_NEAR(speed(right), test::Trot::kSpeed, 0.02);
+  config.joint_names.back() = "12";
+  EXPECT_TRUE(read({.named = false}, config)
+                  .noted("the joints have no names: set "
+                         "recording.joint_names to the twelve indices"));
+}
+
+TEST_F(RecordedTrot, AnglesInDegreesAreNamedAndConverted) {
+  const TrotOptions degrees = {.unit = std::numbers::pi / 180.0};
+  EXPECT_TRUE(read(degrees).noted("recording.joint_unit=deg"));
+  RecordingConfig config;
+  config.joint_unit = JointUnit::kDegrees;
+  const Recording right = read(degrees, config);
+  EXPECT_FALSE(right.noted("are they in degrees?"));
+  EXPECT_NEAR(speed(right), test::Trot::kSpeed, 0.02);
+  EXPECT_FALSE(read({}).noted("are they in degrees?"));
+}
+
+TEST_F(RecordedTrot, TorquesOfTheKneesBelowTheThresholdAreLearned) {
+  RecordingConfig config;
+  config.topics.contacts = "/joint_states";
+  const Recording right = read({.forces = false}, config);
+  ASSERT_EQ(right.error, "");
+  EXPECT_TRUE(right.noted("learned from 400 messages"));
+  EXPECT_NEAR(speed(right), test::Trot::kSpeed, 0.02);
+}
+
+TEST_F(RecordedTrot, WithoutContactsTheirTopicIsAskedFor) {
+  const Recording none = read({.forces = false});
+  EXPECT_NE(none.setup.leg_lack.find("--topics contacts=/..."), std::string::npos)
+      << none.setup.leg_lack;
+  EXPECT_NE(none.setup.leg_lack.find("torques of the knees (--topics contacts=/joint_states)"),
+            std::string::npos)
+      << none.setup.leg_lack;
+}
+
+TEST_F(RecordedTrot, FeetInAWrongOrderDisagree) {
+  RecordingConfig config;
+  config.foot_names = {"FL", "FR", "RL", "RR"};
+  const auto apart = [](const Recording& read) {
+    const auto found = read.counts.find("feet_in_contact_disagree");
+    return found == read.counts.end() ? 0 : found->second;
+  };
+  EXPECT_LT(apart(read({}, config)), 20);
+  EXPECT_GT(apart(read({.feet = {1, 0, 2, 3}}, config)), 200) << "of 400";
 }
 
 TEST_F(RecordedJoints, UnknownJointNamesAreNoted) {

@@ -44,17 +44,21 @@ TEST(PointTime, KeepsTheDigitsOfSecondsSinceTheEpoch) {
 }
 
 TEST(LegNames, FollowTheConventionsOfManyRobots) {
-  for (const char* name :
-       {"FL_hip_joint", "LF_HAA", "fl.hx", "front_left_hip_x", "/LF/hip", "left_front_shoulder"}) {
+  for (const char* name : {"FL_hip_joint", "LF_HAA", "fl.hx", "front_left_hip_x", "/LF/hip",
+                           "left_front_shoulder", "FL_HipX_joint", "lf_hip_roll", "FrontLeft_coxa",
+                           "front left shoulder abduction motor", "FL_hip_motor_2_chassis_joint"}) {
     EXPECT_EQ(leg_of_name(name), 0) << name;
     EXPECT_EQ(joint_of_name(name), 0) << name;
   }
   for (const char* name :
-       {"RR_calf_joint", "RH_KFE", "hr.kn", "rear_right_knee", "hind-right-lower"}) {
+       {"RR_calf_joint", "RH_KFE", "hr.kn", "rear_right_knee", "hind-right-lower", "HR_Knee_joint",
+        "RearRight_tibia", "rear right elbow motor", "RR_lower_leg_2_upper_leg_joint"}) {
     EXPECT_EQ(leg_of_name(name), 3) << name;
     EXPECT_EQ(joint_of_name(name), 2) << name;
   }
-  for (const char* name : {"RL_thigh_joint", "LH_HFE", "hl.hy", "rear_left_hip_y"}) {
+  for (const char* name : {"RL_thigh_joint", "LH_HFE", "hl.hy", "rear_left_hip_y", "HL_HipY_joint",
+                           "lh_hip_pitch", "HindLeft_femur", "LH_hip_flexion",
+                           "rear left shoulder rotation motor", "RL_upper_leg_2_hip_motor_joint"}) {
     EXPECT_EQ(leg_of_name(name), 2) << name;
     EXPECT_EQ(joint_of_name(name), 1) << name;
   }

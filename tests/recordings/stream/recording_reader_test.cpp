@@ -56,6 +56,78 @@ TEST_F(RecordingReaderTest, ALidarThatStartsAMinuteLaterIsReadLikeAnyOther) {
   EXPECT_TRUE(read.setup.has_point_times);
   EXPECT_FALSE(read.noted("NO TRANSFORM"));
   EXPECT_TRUE(read.setup.warnings.empty());
+  EXPECT_TRUE(read.noted("the estimate begins 3 s before the first one"));
+  const Time first = test::scans_of(read.deliveries).at(0)->stamp;
+  EXPECT_NEAR(to_seconds(first - test::imu_of(read.deliveries).at(0).stamp), 3.0, 0.2);
+}
+
+TEST_F(RecordingReaderTest, ARecorderClockThatIsSetBackByMoreThanTheRecordingChangesNoOrder) {
+  const Time start = 1'700'000'000 * kSecond;
+  for (const Duration back : {7 * kSecond, 3600 * kSecond}) {
+    std::filesystem::remove(bag());
+    RobotRecording robot(bag());
+    robot.add_transforms(kMounted);
+    // All that follows 1 s is recorded earlier, so that it comes first.
+    for (int k = 0; k < 150; ++k) {
+      const Time stamp = start + k * 20 * kMillisecond;
+      const Time recorded = stamp + kMillisecond - (k < 50 ? 0 : back);
+      ImuSample sample;
+      sample.stamp = stamp;
+      sample.specific_force = {0.0, 0.0, 9.81};
+      robot.add("/imu", imu_type(), recorded, imu_message({0, stamp, "imu"}, sample));
+    }
+    robot.add_clouds(start, 8);
+    robot.close();
+    const Recording read = test::read_recording(bag());
+    const auto imu = test::imu_of(read.deliveries);
+    ASSERT_EQ(imu.size(), 150U);
+    for (std::size_t i = 1; i < imu.size(); ++i) EXPECT_GT(imu[i].stamp, imu[i - 1].stamp) << i;
+  }
+}
+
+TEST_F(RecordingReaderTest, StampsOfZeroAmongOthersSayNothingOfTheClocks) {
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  const Time start = 1'700'000'000 * kSecond;
+  for (int k = 0; k < 100; ++k) {
+    const Time stamp = start + k * 20 * kMillisecond;
+    ImuSample sample;
+    sample.stamp = k % 4 == 0 ? 0 : stamp;
+    sample.specific_force = {0.0, 0.0, 9.81};
+    robot.add("/imu", imu_type(), stamp + kMillisecond,
+              imu_message({0, sample.stamp, "imu"}, sample));
+  }
+  robot.add_clouds(start, 8);
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  EXPECT_FALSE(read.noted("the recorder's clock is"));
+  EXPECT_TRUE(read.setup.warnings.empty());
+  EXPECT_EQ(test::imu_of(read.deliveries).size(), 75U);
+  EXPECT_EQ(read.counts.at("stamp_not_set"), 25);
+}
+
+TEST_F(RecordingReaderTest, ADelayOfTheImuTakesItsOtherClockBack) {
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  const Time start = 1'700'000'000 * kSecond;
+  for (int k = 0; k < 100; ++k) {
+    ImuSample sample;
+    sample.stamp = 12 * kSecond + k * 20 * kMillisecond;  // since boot
+    sample.specific_force = {0.0, 0.0, 9.81};
+    robot.add("/imu", imu_type(), start + k * 20 * kMillisecond + kMillisecond,
+              imu_message({0, sample.stamp, "imu"}, sample));
+  }
+  robot.add_clouds(start, 8);
+  robot.close();
+  RecordingConfig config;
+  config.imu_delay = to_seconds(12 * kSecond - start);
+  const Recording read = test::read_recording(bag(), config);
+  EXPECT_FALSE(read.noted("the recorder's clock is"));
+  EXPECT_NEAR(to_seconds(test::imu_of(read.deliveries).at(0).stamp - start), 0.0, 1e-6);
+  const auto first = std::ranges::find_if(read.deliveries, [](const Delivery& each) {
+    return std::holds_alternative<ImuSample>(each.measurement);
+  });
+  EXPECT_NEAR(to_seconds(first->arrival - start), 0.0, 0.1);
 }
 
 constexpr Time kEpochStart = 1'700'000'000 * kSecond;

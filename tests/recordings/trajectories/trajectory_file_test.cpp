@@ -254,6 +254,8 @@ TEST_F(TrajectoryFiles, ColumnsAreFoundByTheirNames) {
       "1700000001005 1 2 -3 0 0 0.6 0.8\n",
       "1700000001005000000 1 2 -3 0.8 0 0 0.6\n",
       "% a comment\n1700000001.005 1 2 -3 0 0 0.6 0.8\n",
+      "# timestamp tx ty tz qw qx qy qz\n1700000001.005 1 2 -3 0.8 0 0 0.6\n",
+      "# timestamp_s id x y z\n1700000001.005 1 2 -3 0 0 0.6 0.8\n",  // Hilti 2023
       "// a comment\n1700000001.005 1 2 -3 0 0 0.6 0.8 # and one more\n",
       "1700000001.005 1 2 -3 0 0 0.6 0.8\r1700000002 1 2 -3 0 0 0.6 0.8\r"};
   for (const std::string& text : texts) {
@@ -266,6 +268,116 @@ TEST_F(TrajectoryFiles, ColumnsAreFoundByTheirNames) {
     EXPECT_NEAR(pose.pose.rotation.w(), 0.8, 1e-15) << text;
     EXPECT_NEAR(pose.pose.rotation.z(), 0.6, 1e-15) << text;
   }
+}
+
+/// The text in UTF-16 with a byte order mark.
+std::string utf16(const std::string& text, bool little) {
+  std::string bytes = little ? "\xff\xfe" : "\xfe\xff";
+  for (const char c : text) {
+    const std::string unit = {little ? c : '\0', little ? '\0' : c};
+    bytes += unit;
+  }
+  return bytes;
+}
+
+TEST_F(TrajectoryFiles, Utf16OfEitherByteOrderIsTheSameText) {
+  for (const std::string& text :
+       {std::string("1.5 1 2 3 0 0 0.6 0.8\r\n"),
+        std::string("t,x,y,z,qx,qy,qz,qw\r\n1.5,1,2,3,0,0,0.6,0.8\r\n")}) {
+    for (const bool little : {true, false}) {
+      const auto read = read_trajectory(file("wide.txt", utf16(text, little)), {});
+      ASSERT_TRUE(read) << read.error().message;
+      ASSERT_EQ(read->trajectory.size(), 1U);
+      EXPECT_EQ(read->trajectory[0].stamp, 1500 * kMillisecond);
+      EXPECT_EQ(read->trajectory[0].pose.translation, Eigen::Vector3d(1, 2, 3));
+    }
+    const std::string unmarked = utf16(text, true).substr(2);
+    EXPECT_NE(message_of(file("wide.txt", unmarked)).find("UTF-16 without a byte order mark"),
+              std::string::npos);
+  }
+}
+
+TEST_F(TrajectoryFiles, PositionsHaveTheUnitOfTheirHeader) {
+  for (const char* text : {"t,x [mm],y [mm],z [mm]\n1.5,1000,-2500.5,0\n",
+                           "time_s;x_mm;y_mm;z_mm\n1,5;1000;-2500,5;0\n",
+                           "# t [s] x [cm] y [cm] z [cm]\n1.5,100,-250.05,0\n",
+                           "# time [s] x [m] y [m] z [m]\n1.5, 1, -2.5005, 0\n"}) {
+    const auto read = read_trajectory(file("p.csv", text), {});
+    ASSERT_TRUE(read) << text << read.error().message;
+    ASSERT_EQ(read->trajectory.size(), 1U) << text;
+    EXPECT_FALSE(read->has_attitude);
+    EXPECT_NEAR((read->trajectory[0].pose.translation - Eigen::Vector3d(1, -2.5005, 0)).norm(), 0.0,
+                1e-12)
+        << text;
+  }
+}
+
+TEST_F(TrajectoryFiles, AttitudesAreAnglesOrMatricesToo) {
+  // 90 deg about z after 90 deg about x: R = Rz Rx.
+  const std::string matrix = "0,0,1,1,1,0,0,2,0,1,0,3";
+  for (const std::string& text :
+       {"1500000000123456789," + matrix + "\n", "1500000000123456789," + matrix + ",0,0,0,1\n",
+        std::string("1500000000.123456789 0 0 1 1 1 0 0 2 0 1 0 3\n"),
+        std::string(
+            "t,x,y,z,roll [deg],pitch [deg],yaw [deg]\n1500000000.123456789,1,2,3,90,0,90\n"),
+        std::string("t x y z yaw pitch roll\n1500000000.123456789 1 2 3 1.5707963267948966 0 "
+                    "1.5707963267948966\n")}) {
+    const auto read = read_trajectory(file("m.csv", text), {});
+    ASSERT_TRUE(read) << text << read.error().message;
+    ASSERT_EQ(read->trajectory.size(), 1U) << text;
+    EXPECT_TRUE(read->has_attitude);
+    const StampedPose& each = read->trajectory[0];
+    EXPECT_EQ(each.stamp, 1500000000123456789) << text;
+    EXPECT_EQ(each.pose.translation, Eigen::Vector3d(1, 2, 3)) << text;
+    EXPECT_NEAR((each.pose.R() * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(0, 1, 0)).norm(), 0.0,
+                1e-12)
+        << text;
+    EXPECT_NEAR((each.pose.R() * Eigen::Vector3d(0, 1, 0) - Eigen::Vector3d(0, 0, 1)).norm(), 0.0,
+                1e-12)
+        << text;
+  }
+  const auto mirrored = read_trajectory(file("m.txt", "1 -1 0 0 1 0 1 0 2 0 0 1 3\n"), {});
+  ASSERT_TRUE(mirrored);
+  EXPECT_TRUE(mirrored->trajectory.empty()) << "no rotation";
+}
+
+TEST_F(TrajectoryFiles, AShuffledTruthIsSorted) {
+  const std::string pose = " 1 0 0 0 0 0.6 0.8\n";
+  const auto read = read_trajectory(
+      file("s.tum", "2" + pose + "1" + pose + "4" + pose + "3" + pose + "6" + pose + "5" + pose),
+      {});
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->trajectory.size(), 6U);
+  EXPECT_EQ(read->trajectory[0].stamp, kSecond);
+  EXPECT_NE(read->notes.at(0).find("stamps go back 3 times: sorted"), std::string::npos);
+}
+
+TEST_F(TrajectoryFiles, LatitudeAndLongitudeAreNoPositions) {
+  for (const char* text : {"timestamp,latitude,longitude,altitude\n1,46.1,7.2,500\n",
+                           "# time lat lon alt\n1 46.1 7.2 500\n"}) {
+    EXPECT_NE(message_of(file("gps.csv", text)).find("found latitude and longitude"),
+              std::string::npos)
+        << text;
+  }
+}
+
+TEST_F(TrajectoryFiles, ACommentThatNamesOtherColumnsIsNoHeader) {
+  // As the control points of Hilti 2023, with commas.
+  const auto read =
+      read_trajectory(file("p.csv", "# timestamp_s, id, x, y, z\n1.5,1,2,3,0,0,0.6,0.8\n"), {});
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->trajectory.at(0).pose.translation, Eigen::Vector3d(1, 2, 3));
+  EXPECT_NE(read->notes.at(0).find("a comment names 5 columns"), std::string::npos);
+}
+
+TEST_F(TrajectoryFiles, APoseOfALostBodyIsLeftOutOfATruth) {
+  const std::string origin = " 0 0 0 0 0 0 1\n", away = " 5 1 0 0 0 0.6 0.8\n";
+  const auto read = read_trajectory(file("mocap.tum", "1" + origin + "2" + origin + "3" + away +
+                                                          "4" + origin + "5" + away + "6" + origin),
+                                    {});
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->trajectory.size(), 4U) << "those at the start are a start";
+  EXPECT_NE(read->notes.at(0).find("2 exactly at the origin"), std::string::npos);
 }
 
 TEST_F(TrajectoryFiles, NumbersWithoutNamesAreNoOtherColumns) {
