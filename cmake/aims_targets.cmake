@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
 
-include(GoogleTest)
-
 # Flags that every target of the project shares. Floating-point contraction is off, so that the
 # same source gives the same bytes whichever instructions the compiler picks.
 add_library(aims_flags INTERFACE)
@@ -27,49 +25,98 @@ endif()
 # a build folder that they make.
 option(AIMS_UNITY "Compile the source files of a library in batches" OFF)
 
-# aims_batches(TARGET [FUNCTIONS]): compiles the target in batches. Files of a batch share their
-# anonymous namespace: a file that defines a constant or type (FUNCTIONS: also a function, which in a
-# library are mostly overloads) of a name that an earlier file has is compiled alone.
-function(aims_batches target)
+# aims_names_of(PATH DEFINED IMPORTED [FUNCTIONS]): the constants and types (FUNCTIONS: also the functions, which in a
+# library are mostly overloads) that a source file defines, and the names that its using-declarations import.
+function(aims_names_of path defined imported)
   set(definition "\n(const[a-z]* [^\n=({]* k|struct |class |enum class |using )[A-Z][A-Za-z0-9]*( =)?")
   if("FUNCTIONS" IN_LIST ARGN)
     set(definition "${definition}|\n[A-Za-z][^\n=(]* [a-z_0-9]+\\(")
   endif()
+  file(READ ${path} text)
+  string(REGEX MATCHALL "${definition}" names "${text}")
+  list(FILTER names EXCLUDE REGEX "\nusing .*[^=]$")
+  list(TRANSFORM names REPLACE "( =|\\()$" "")
+  list(TRANSFORM names REPLACE "^.*[ *&]" "")
+  string(REGEX MATCHALL "\nusing [A-Za-z_0-9:]*::[A-Za-z_0-9]*" imports "${text}")
+  list(TRANSFORM imports REPLACE "^.*:" "")
+  set(${defined} "${names}" PARENT_SCOPE)
+  set(${imported} "${imports}" PARENT_SCOPE)
+endfunction()
+
+# aims_meet(A B MEET): whether two lists of names have one in common.
+function(aims_meet a b meet)
+  set(rest ${${a}})
+  list(REMOVE_ITEM rest ${${b}} "")
+  set(whole ${${a}})
+  list(REMOVE_ITEM whole "")
+  list(LENGTH rest left)
+  list(LENGTH whole all)
+  set(${meet} OFF PARENT_SCOPE)
+  if(left LESS all)
+    set(${meet} ON PARENT_SCOPE)
+  endif()
+endfunction()
+
+# aims_batches(TARGET [FUNCTIONS]): compiles the target in batches of at most 8 files. Files of a batch share their
+# anonymous namespace: a file that has a name (aims_names_of) of an earlier one joins one of the later batches, the
+# first that has none of its names.
+function(aims_batches target)
   get_target_property(sources ${target} SOURCES)
   set(defined "")
-  set(imported "")  # by using-declarations, which may be repeated
+  set(imported "")
+  set(plain 0)
+  set(others "")
   foreach(source ${sources})
     get_filename_component(path ${source} ABSOLUTE)
-    set(alone ON)  # generated
-    if(EXISTS ${path} AND NOT path MATCHES "^${PROJECT_BINARY_DIR}/")
-      set(alone OFF)
-      file(READ ${path} text)
-      string(REGEX MATCHALL "${definition}" names "${text}")
-      list(FILTER names EXCLUDE REGEX "\nusing .*[^=]$")
-      list(TRANSFORM names REPLACE "( =|\\()$" "")
-      list(TRANSFORM names REPLACE "^.*[ *&]" "")
-      string(REGEX MATCHALL "\nusing [A-Za-z_0-9:]*::[A-Za-z_0-9]*" imports "${text}")
-      list(TRANSFORM imports REPLACE "^.*:" "")
-      foreach(name ${names})
-        if(name IN_LIST defined OR name IN_LIST imported)
-          set(alone ON)
-        endif()
-      endforeach()
-      foreach(name ${imports})
-        if(name IN_LIST defined)
-          set(alone ON)
-        endif()
-      endforeach()
-      if(NOT alone)
-        list(APPEND defined ${names})
-        list(APPEND imported ${imports})
-      endif()
+    if(NOT EXISTS ${path} OR path MATCHES "^${PROJECT_BINARY_DIR}/" OR NOT path MATCHES "\\.cpp$")
+      continue()  # generated, or no source file
     endif()
-    set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ${alone})
+    aims_names_of(${path} names imports ${ARGN})
+    set(taken ${defined} ${imported})
+    aims_meet(names taken clash)
+    aims_meet(imports defined hidden)  # an import may be repeated
+    if(clash OR hidden)
+      list(APPEND others ${source})
+    else()
+      math(EXPR batch "${plain} / 8")
+      math(EXPR plain "${plain} + 1")
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${batch})
+      list(APPEND defined ${names})
+      list(APPEND imported ${imports})
+    endif()
   endforeach()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  math(EXPR first "(${plain} + 7) / 8")
+  aims_later_batches(${first} "${others}" ${ARGN})
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   # GCC takes an anonymous namespace of a file that another includes for one of a header.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endfunction()
+
+# aims_later_batches(FIRST SOURCES [FUNCTIONS]): puts the files into batches from number FIRST on.
+function(aims_later_batches first sources)
+  set(end ${first})
+  foreach(source ${sources})
+    get_filename_component(path ${source} ABSOLUTE)
+    aims_names_of(${path} names imports ${ARGN})
+    set(batch ${first})
+    while(batch LESS end)
+      set(taken ${defined_${batch}} ${imported_${batch}})
+      aims_meet(names taken clash)
+      aims_meet(imports defined_${batch} hidden)
+      if(NOT clash AND NOT hidden AND size_${batch} LESS 8)
+        break()
+      endif()
+      math(EXPR batch "${batch} + 1")
+    endwhile()
+    if(batch EQUAL end)
+      math(EXPR end "${end} + 1")
+      set(size_${batch} 0)
+    endif()
+    math(EXPR size_${batch} "${size_${batch}} + 1")
+    list(APPEND defined_${batch} ${names})
+    list(APPEND imported_${batch} ${imports})
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${batch})
+  endforeach()
 endfunction()
 
 # aims_cold(TARGET): for code that runs once per command and includes much. Always in batches, as
@@ -92,12 +139,13 @@ function(aims_library name)
   endif()
 endfunction()
 
-# aims_test(NAME SOURCES file... [LINKS target...] [LABEL unit|scenario|stress] [COST seconds])
-# A GoogleTest executable whose cases are registered with ctest under one label. Its own sources compile
-# without costly optimisations; the libraries that it tests are those of the program. ctest starts the
-# tests of the largest cost first, so that no core waits for a long one at the end.
+# aims_test(NAME SOURCES file... [LINKS target...] [LABEL unit|scenario|nightly|stress] [COST seconds]
+#   [NIGHTLY suite.case...])
+# A GoogleTest executable whose suites are registered with ctest under one label, but for the cases that are
+# NIGHTLY. Its own sources compile without costly optimisations; the libraries that it tests are those of the
+# program. ctest starts the tests of the largest cost first, so that no core waits for a long one at the end.
 function(aims_test name)
-  cmake_parse_arguments(arg "" "LABEL;COST" "SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(arg "" "LABEL;COST" "SOURCES;LINKS;NIGHTLY" ${ARGN})
   if(NOT arg_LABEL)
     set(arg_LABEL unit)
   endif()
@@ -110,8 +158,16 @@ function(aims_test name)
   if(AIMS_UNITY)
     aims_batches(test_${name} FUNCTIONS)
   endif()
-  gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_MODE PRE_TEST
-    PROPERTIES LABELS ${arg_LABEL} TIMEOUT 600 COST ${arg_COST})
+  set(suites ${CMAKE_CURRENT_BINARY_DIR}/${name}_suites.cmake)
+  file(GENERATE OUTPUT ${suites} CONTENT "set(NAME ${name})
+set(PROGRAM \"$<TARGET_FILE:test_${name}>\")
+set(FOLDER \"${CMAKE_CURRENT_BINARY_DIR}\")
+set(LABEL ${arg_LABEL})
+set(NIGHTLY \"${arg_NIGHTLY}\")
+set(PROPERTIES TIMEOUT 600 COST ${arg_COST})
+include(\"${PROJECT_SOURCE_DIR}/cmake/discover_suites.cmake\")
+")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${suites})
 endfunction()
 
 # aims_bench(NAME SOURCES file... [LINKS target...])

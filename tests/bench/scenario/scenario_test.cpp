@@ -49,10 +49,14 @@ TEST_F(ScenarioFolder, RefusesTwoFilesOfOneName) {
   EXPECT_FALSE(scenarios_in(folder_.path(), {}));
 }
 
+/// The shipped scenarios, loaded once for all tests of the suite.
+const std::vector<ScenarioFile>& shipped() {
+  static const std::vector<ScenarioFile> files = scenarios_in(AIMS_SCENARIOS, {}).value();
+  return files;
+}
+
 TEST(ShippedScenarios, ExpectNoEstimatorToFail) {
-  const auto files = scenarios_in(AIMS_SCENARIOS, {});
-  ASSERT_TRUE(files) << files.error().message;
-  for (const auto& [file, scenario] : *files) {
+  for (const auto& [file, scenario] : shipped()) {
     ASSERT_TRUE(scenario) << scenario.error().message;
     for (const Expectation& expectation : scenario->expect) {
       if (expectation.score != "success" && expectation.score != "optimized.success") continue;
@@ -63,10 +67,8 @@ TEST(ShippedScenarios, ExpectNoEstimatorToFail) {
 }
 
 TEST(ShippedScenarios, OfStressDrawTheirOwnSensors) {
-  const auto files = scenarios_in(AIMS_SCENARIOS, {});
-  ASSERT_TRUE(files) << files.error().message;
   std::size_t stress = 0;
-  for (const auto& [file, scenario] : *files) {
+  for (const auto& [file, scenario] : shipped()) {
     const bool of_stress = std::ranges::count(scenario->tags, "stress") > 0;
     const std::string& draw = scenario->simulation.sensor_draw;
     EXPECT_TRUE(draw == scenario->name || (draw.empty() && !of_stress)) << file << ": " << draw;
@@ -76,24 +78,20 @@ TEST(ShippedScenarios, OfStressDrawTheirOwnSensors) {
 }
 
 TEST(ShippedScenarios, LoadAndAreCalledAsTheirFiles) {
-  const auto files = scenarios_in(AIMS_SCENARIOS, {});
-  ASSERT_TRUE(files) << files.error().message;
-  EXPECT_FALSE(files->empty());
-  for (const auto& [file, scenario] : *files) {
+  EXPECT_FALSE(shipped().empty());
+  for (const auto& [file, scenario] : shipped()) {
     ASSERT_TRUE(scenario) << scenario.error().message;
     EXPECT_EQ(scenario->name, file.stem().string()) << "a name from a base?";
   }
 }
 
 TEST(ShippedScenarios, HaveHeadsThatAreThoseOfTheWholeScenarios) {
-  const auto files = scenarios_in(AIMS_SCENARIOS, {});
   const auto heads = scenario_heads(AIMS_SCENARIOS, {});
-  ASSERT_TRUE(files);
   ASSERT_TRUE(heads);
-  ASSERT_EQ(files->size(), heads->size());
-  for (std::size_t i = 0; i < files->size(); ++i) {
+  ASSERT_EQ(shipped().size(), heads->size());
+  for (std::size_t i = 0; i < shipped().size(); ++i) {
     const Result<ScenarioHead>& head = (*heads)[i].head;
-    const Scenario& whole = *(*files)[i].scenario;
+    const Scenario& whole = *shipped()[i].scenario;
     ASSERT_TRUE(head) << head.error().message;
     EXPECT_EQ(head->name, whole.name);
     EXPECT_EQ(head->description, whole.description);
@@ -115,11 +113,9 @@ TEST_F(ScenarioFolder, ATagFindsItsScenariosWhateverElseIsBroken) {
 }
 
 TEST(ShippedScenarios, OfAFamilyShareItsUnitAndDifferInLevel) {
-  const auto files = scenarios_in(AIMS_SCENARIOS, {});
-  ASSERT_TRUE(files);
   std::map<std::string, std::string> units;
   std::set<std::pair<std::string, double>> levels;
-  for (const auto& [file, scenario] : *files) {
+  for (const auto& [file, scenario] : shipped()) {
     if (!scenario || scenario->family.empty()) continue;
     const auto [unit, is_new] = units.emplace(scenario->family, scenario->level_unit);
     EXPECT_EQ(unit->second, scenario->level_unit) << file;
