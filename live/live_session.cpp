@@ -24,6 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kNoRecording = "the recording cannot be written";
+
 Result<void> check_topics(const LiveConfig& config, const RecordingSetup& setup) {
   if (!requirements_of(config.estimator, config.estimators).legs) return {};
   return check_legs(setup, config.estimator, "live topics");
@@ -113,7 +115,7 @@ class Session {
         [&](const RecordingSetup& setup) { return check_topics(config_, setup); },
         [&](const std::string& missing) { tell_waiting(missing); });
     if (!reader) {
-      recorder->close();
+      if (auto ok = recorder->close(); !ok) print_line("warning: " + ok.error().message);
       return tl::unexpected(reader.error());
     }
     const auto warnings = warnings_of(config_, reader->setup());
@@ -127,6 +129,7 @@ class Session {
     LiveEstimate running(transport_, publications_, *reader, **estimator, std::move(*log),
                          {T_odom_start_, &clocks, warnings, part > 1});
     estimate = &running;
+    if (!recorder->state()) running.warn({kNoRecording, recorder->state().error().message});
     commands_.on_save_map([&] { running.save_map(); });
     commands_.on_silence([&](double seconds) { running.tell_silence(seconds); });
     const auto done = running.run();
@@ -145,8 +148,7 @@ class Session {
     recorder.add(message);
     if (!recorded || recorder.state()) return;
     const std::string& why = recorder.state().error().message;
-    if (estimate == nullptr) return print_line("warning: " + why);
-    estimate->warn({"the recording cannot be written", why});
+    if (estimate != nullptr) estimate->warn({kNoRecording, why});
   }
 
   void tell_waiting(const std::string& missing) {
