@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -18,26 +19,71 @@ constexpr float kPerCell = 1.0F / SurfaceTable::kCell;
 
 using Lanes = SurfaceTable::Lanes;
 
-/// sin and cos of 2 pi `cycles` i / n + `phase` at the nodes i, times `amplitude`.
+/// cos and sin of 2 pi k / n.
+struct Circle {
+  explicit Circle(int n) : cosine(n), sine(n) {
+    for (int k = 0; k < n; ++k) {
+      cosine[k] = std::cos(kTurn * k / n);
+      sine[k] = std::sin(kTurn * k / n);
+    }
+  }
+  std::vector<double> cosine;
+  std::vector<double> sine;
+};
+
+/// amplitude cos and sin of 2 pi cycles i / n + phase at the nodes i; n is a power of two.
 struct Harmonic {
-  Harmonic(int cycles, int n, double amplitude, double phase) : cosine(n), sine(n) {
+  Harmonic(const Circle& circle, int cycles, double amplitude, double phase)
+      : cosine(circle.cosine.size()), sine(circle.cosine.size()) {
+    const double c = amplitude * std::cos(phase);
+    const double s = amplitude * std::sin(phase);
+    const auto n = static_cast<int>(circle.cosine.size());
     for (int i = 0; i < n; ++i) {
-      const double angle = kTurn * cycles * i / n + phase;
-      cosine[i] = static_cast<float>(amplitude * std::cos(angle));
-      sine[i] = static_cast<float>(amplitude * std::sin(angle));
+      const int k = (cycles * i) & (n - 1);
+      cosine[i] = static_cast<float>(c * circle.cosine[k] - s * circle.sine[k]);
+      sine[i] = static_cast<float>(s * circle.cosine[k] + c * circle.sine[k]);
     }
   }
   std::vector<float> cosine;
   std::vector<float> sine;
 };
 
+/// A plane wave: cos(columns + rows).
+struct Wave {
+  Harmonic columns;
+  Harmonic rows;
+};
+
+/// Sum of the waves at the nodes, row by row; a part of the columns at a time stays in the cache.
+std::vector<float> sum_of(const std::vector<Wave>& waves, float scale) {
+  constexpr int kPart = 64;
+  std::vector<float> nodes(static_cast<std::size_t>(kColumns) * kRows);
+  for (int first = 0; first < kColumns; first += kPart) {
+    for (int row = 0; row < kRows; ++row) {
+      std::array<float, kPart> sum{};
+      for (const Wave& wave : waves) {
+        const float* cosine = wave.columns.cosine.data() + first;
+        const float* sine = wave.columns.sine.data() + first;
+        const float c = wave.rows.cosine[row];
+        const float s = wave.rows.sine[row];
+        for (int i = 0; i < kPart; ++i) sum[i] += cosine[i] * c - sine[i] * s;
+      }
+      float* node = nodes.data() + static_cast<std::size_t>(row) * kColumns + first;
+      for (int i = 0; i < kPart; ++i) node[i] = scale * sum[i];
+    }
+  }
+  return nodes;
+}
+
 /// Nodes of a Gaussian field of zero mean, row by row.
 std::vector<float> gaussian_field(double deviation, const SurfaceConfig& config,
                                   RandomStream random) {
-  std::vector<float> nodes(static_cast<std::size_t>(kColumns) * kRows, 0.0F);
-  if (deviation == 0.0) return nodes;
+  if (deviation == 0.0) return std::vector<float>(static_cast<std::size_t>(kColumns) * kRows);
+  const Circle around_u(kColumns);
+  const Circle around_v(kRows);
+  std::vector<Wave> waves;
   double variance = 0.0;
-  for (int wave = 0; wave < kWaves; ++wave) {
+  for (int i = 0; i < kWaves; ++i) {
     const double length =
         config.shortest * std::pow(config.longest / config.shortest, random.uniform());
     const double direction = random.uniform(0.0, kTurn);
@@ -49,18 +95,9 @@ std::vector<float> gaussian_field(double deviation, const SurfaceConfig& config,
     const double amplitude = std::sqrt(length);
     if (along == 0 && up == 0) continue;
     variance += 0.5 * amplitude * amplitude;
-    const Harmonic columns(along, kColumns, amplitude, phase);
-    const Harmonic rows(up, kRows, 1.0, 0.0);
-    for (int row = 0; row < kRows; ++row) {
-      float* node = nodes.data() + static_cast<std::size_t>(row) * kColumns;
-      for (int i = 0; i < kColumns; ++i) {
-        node[i] += columns.cosine[i] * rows.cosine[row] - columns.sine[i] * rows.sine[row];
-      }
-    }
+    waves.push_back({{around_u, along, amplitude, phase}, {around_v, up, 1.0, 0.0}});
   }
-  const auto scale = static_cast<float>(deviation / std::sqrt(variance));
-  for (float& node : nodes) node *= scale;
-  return nodes;
+  return sum_of(waves, static_cast<float>(deviation / std::sqrt(variance)));
 }
 
 float largest_of(const std::vector<float>& nodes) {
