@@ -141,7 +141,7 @@ TEST_F(HostileFolder, NumbersThatAreNoneBecomeNone) {
 TEST_F(HostileFolder, CutOrBrokenFileIsNamedWithItsLine) {
   const std::string table = content(run_ / "exact.diagnostics.csv");
   put(run_ / "exact.diagnostics.csv", table.substr(0, table.size() - 40));
-  expect_refused({"exact.diagnostics.csv:6", "49 cells"});
+  expect_refused({"exact.diagnostics.csv:6", "50 cells"});
   put(run_ / "exact.diagnostics.csv", "stamp_s,D\n0.1,much\n");
   expect_refused({"exact.diagnostics.csv:2", "D", "a number", "'much'"});
   put(run_ / "exact.diagnostics.csv", "");
