@@ -10,7 +10,7 @@ enum ExitCode : int {
   kBadInput = 2,           ///< usage, configuration or files
   kInternal = 3,           ///< a defect of this program
   kInvalidRun = 4,         ///< a run is invalid (bench/scoring/validity.hpp), or an estimate
-  kInterrupted = 130,      ///< Ctrl-C; results so far are written. Likewise 129 (SIGHUP), 143 (SIGTERM)
+  kInterrupted = 130,      ///< Ctrl-C; results so far are written; likewise 129 and 143
 };
 
 }  // namespace aims

@@ -58,51 +58,21 @@ function(aims_meet a b meet)
 endfunction()
 
 # aims_batches(TARGET [FUNCTIONS]): compiles the target in batches of at most 8 files. Files of a batch share their
-# anonymous namespace: a file that has a name (aims_names_of) of an earlier one joins one of the later batches, the
-# first that has none of its names.
+# anonymous namespace: each file joins the first batch that has room and none of its names (aims_names_of).
 function(aims_batches target)
   get_target_property(sources ${target} SOURCES)
-  set(defined "")
-  set(imported "")
-  set(plain 0)
-  set(others "")
+  set(end 0)
   foreach(source ${sources})
     get_filename_component(path ${source} ABSOLUTE)
     if(NOT EXISTS ${path} OR path MATCHES "^${PROJECT_BINARY_DIR}/" OR NOT path MATCHES "\\.cpp$")
       continue()  # generated, or no source file
     endif()
     aims_names_of(${path} names imports ${ARGN})
-    set(taken ${defined} ${imported})
-    aims_meet(names taken clash)
-    aims_meet(imports defined hidden)  # an import may be repeated
-    if(clash OR hidden)
-      list(APPEND others ${source})
-    else()
-      math(EXPR batch "${plain} / 8")
-      math(EXPR plain "${plain} + 1")
-      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${batch})
-      list(APPEND defined ${names})
-      list(APPEND imported ${imports})
-    endif()
-  endforeach()
-  math(EXPR first "(${plain} + 7) / 8")
-  aims_later_batches(${first} "${others}" ${ARGN})
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  # GCC takes an anonymous namespace of a file that another includes for one of a header.
-  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
-endfunction()
-
-# aims_later_batches(FIRST SOURCES [FUNCTIONS]): puts the files into batches from number FIRST on.
-function(aims_later_batches first sources)
-  set(end ${first})
-  foreach(source ${sources})
-    get_filename_component(path ${source} ABSOLUTE)
-    aims_names_of(${path} names imports ${ARGN})
-    set(batch ${first})
+    set(batch 0)
     while(batch LESS end)
       set(taken ${defined_${batch}} ${imported_${batch}})
       aims_meet(names taken clash)
-      aims_meet(imports defined_${batch} hidden)
+      aims_meet(imports defined_${batch} hidden)  # an import may be repeated
       if(NOT clash AND NOT hidden AND size_${batch} LESS 8)
         break()
       endif()
@@ -117,6 +87,9 @@ function(aims_later_batches first sources)
     list(APPEND imported_${batch} ${imports})
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${batch})
   endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # GCC takes an anonymous namespace of a file that another includes for one of a header.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
 # aims_cold(TARGET): for code that runs once per command and includes much. Always in batches, as

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "estimator/aims/leg_free_prediction.hpp"
+#include "estimator/filter/pose_information.hpp"
 #include "estimator/lidar/drift_search.hpp"
 
 namespace aims {

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimator/degeneracy/cross_validation.hpp"
+#include "estimator/filter/pose_information.hpp"
 
 namespace aims {
 namespace {

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimator/filter/pose_information.hpp"
+
 namespace aims {
 namespace {
 
@@ -150,19 +152,6 @@ PoseInformation CrossValidatedInformation::applied_to(const HalvesInformation& s
   applied.matrix.bottomRightCorner<3, 3>() += matrix_root_ * S * matrix_root_.transpose() - S;
   applied.vector.tail<3>() = coupling(scan.within).transpose() * rotation + vector_gain_ * position;
   return applied;
-}
-
-Eigen::Matrix3d schur_complement(const Eigen::Matrix3d& block, const Eigen::Matrix3d& cross,
-                                 const Eigen::Matrix3d& other) {
-  const Eigen::Matrix3d covariance =
-      (other + kRegularization * Eigen::Matrix3d::Identity()).inverse();
-  const Eigen::Matrix3d rest = block - cross * covariance * cross.transpose();
-  return 0.5 * (rest + rest.transpose());
-}
-
-Eigen::Matrix3d position_information(const Matrix6& information) {
-  return schur_complement(information.bottomRightCorner<3, 3>(),
-                          information.bottomLeftCorner<3, 3>(), information.topLeftCorner<3, 3>());
 }
 
 double weakest_confirmed_fraction(const HalvesInformation& scan) {

@@ -96,14 +96,6 @@ class CrossValidatedInformation {
   Eigen::Matrix3d across_ = Eigen::Matrix3d::Zero();
 };
 
-/// Information of a block with the other block, of information `other`, unknown: the Schur
-/// complement of `other`; `cross` is the off-diagonal block, 3x3 each.
-Eigen::Matrix3d schur_complement(const Eigen::Matrix3d& block, const Eigen::Matrix3d& cross,
-                                 const Eigen::Matrix3d& other);
-
-/// Information about the position with the rotation unknown.
-Eigen::Matrix3d position_information(const Matrix6& information);
-
 /// Smallest eigenvalue ratio of `across` to `within` over the axes of the position, the rotation
 /// unknown: the real fraction of the information along the weakest axis, 1 without noise and about
 /// 0 where all of it is noise.

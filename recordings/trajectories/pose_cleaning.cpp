@@ -15,14 +15,22 @@ namespace {
 constexpr double kUnitTolerance = 1e-3;      ///< of a norm that is 1
 constexpr double kRoundingTolerance = 0.06;  ///< of a norm from decimals that are rounded
 
-enum Fault : std::size_t { kNone, kNotFinite, kNoRotation, kRepeated, kBackwards, kLost, kFaults };
+enum Fault : std::size_t {
+  kNoFault,
+  kNotFinite,
+  kNoRotation,
+  kRepeated,
+  kBackwards,
+  kLost,
+  kFaults
+};
 
 Fault fault_of(const StampedPose& pose, const std::optional<Time>& last) {
   const Pose& each = pose.pose;
   if (!each.translation.allFinite() || !each.rotation.coeffs().allFinite()) return kNotFinite;
   if (!(std::abs(each.rotation.norm() - 1.0) < kUnitTolerance)) return kNoRotation;
   if (last && pose.stamp == *last) return kRepeated;
-  return last && pose.stamp < *last ? kBackwards : kNone;
+  return last && pose.stamp < *last ? kBackwards : kNoFault;
 }
 
 /// The pose that a motion capture writes where it lost the body.
@@ -30,14 +38,19 @@ bool is_unset(const Pose& pose) {
   return pose.translation.isZero(0.0) && pose.rotation.vec().isZero(0.0);
 }
 
-/// Whether the pose is unset between others that are far from the origin.
-bool is_lost(const Trajectory& poses, std::size_t at, const Trajectory& usable) {
-  constexpr double kFar = 0.5;  // [m]
-  if (!is_unset(poses[at].pose) || usable.empty()) return false;
-  const auto next = std::find_if(poses.begin() + static_cast<std::ptrdiff_t>(at), poses.end(),
-                                 [](const StampedPose& each) { return !is_unset(each.pose); });
-  const bool back = next == poses.end() || next->pose.translation.norm() > kFar;
-  return back && usable.back().pose.translation.norm() > kFar;
+constexpr double kFar = 0.5;  ///< of a pose that is set from one that is not [m]
+
+bool is_far(const Pose& pose) { return pose.translation.norm() > kFar; }
+
+/// Whether the next pose that is set, from each on, is far from the origin, or there is none.
+std::vector<bool> far_from(const Trajectory& poses) {
+  std::vector<bool> far(poses.size());
+  bool next = true;
+  for (std::size_t i = poses.size(); i-- > 0;) {
+    if (!is_unset(poses[i].pose)) next = is_far(poses[i].pose);
+    far[i] = next;
+  }
+  return far;
 }
 
 std::string text_of(const std::array<std::size_t, kFaults>& counts) {
@@ -94,12 +107,16 @@ void drop_unusable(Trajectory& poses, const std::string& name, std::vector<std::
   usable.reserve(poses.size());
   std::array<std::size_t, kFaults> counts{};
   std::optional<Time> last;
+  const std::vector<bool> far = far_from(poses);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const StampedPose& each = poses[i];
     Fault fault = fault_of(each, last);
-    if (fault == kNone && is_lost(poses, i, usable)) fault = kLost;
+    // Unset between others that are far from the origin.
+    const bool lost =
+        is_unset(each.pose) && far[i] && !usable.empty() && is_far(usable.back().pose);
+    if (fault == kNoFault && lost) fault = kLost;
     ++counts[fault];
-    if (fault != kNone) continue;
+    if (fault != kNoFault) continue;
     last = each.stamp;
     usable.push_back(each);
   }
@@ -116,7 +133,7 @@ std::string unusable_text(const Trajectory& poses) {
   for (const StampedPose& each : poses) {
     const Fault fault = fault_of(each, last);
     ++counts[fault];
-    if (fault == kNone) last = each.stamp;
+    if (fault == kNoFault) last = each.stamp;
   }
   return text_of(counts);
 }

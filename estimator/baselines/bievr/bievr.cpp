@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/baselines/bievr/bievr.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
 
 #include "estimator/baselines/bievr/scan_points.hpp"
+#include "estimator/filter/pose_information.hpp"
 
 namespace aims::bievr {
 namespace {
@@ -18,17 +18,6 @@ constexpr std::size_t kMinVoxels = 6;
 
 /// Further from the start indices of voxels would overflow [m].
 constexpr double kMaxDistance = 1e5;
-
-/// Eigenvalues of the information about the position with unknown rotation (Schur complement), per
-/// unit variance.
-Eigen::Vector3d position_eigenvalues(const Matrix6& hessian) {
-  const Eigen::LDLT<Eigen::Matrix3d> rotation(hessian.topLeftCorner<3, 3>());
-  const Eigen::Matrix3d information =
-      hessian.bottomRightCorner<3, 3>() -
-      hessian.bottomLeftCorner<3, 3>() * rotation.solve(hessian.topRightCorner<3, 3>());
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information, Eigen::EigenvaluesOnly)
-      .eigenvalues();
-}
 
 bool is_usable(const Pose& pose) {
   return pose.translation.allFinite() && pose.rotation.coeffs().allFinite() &&
@@ -175,7 +164,10 @@ void Bievr::learn(const NavState& prediction, const Preintegration& motion, cons
 
 void Bievr::record(const Sample& sample, const Registered& registered) {
   const LinearCost& last = registered.last;
-  const Eigen::Vector3d eigenvalues = position_eigenvalues(last.hessian);
+  const Eigen::Vector3d eigenvalues =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(position_information(last.hessian),
+                                                     Eigen::EigenvaluesOnly)
+          .eigenvalues();
   const double none = std::numeric_limits<double>::quiet_NaN();
   result_.trajectory.push_back({time_, state_.T_map_imu});
   result_.diagnostics.scans.push_back(

@@ -30,6 +30,19 @@ constexpr std::array<ReportedSeries<Report>, 3> mapping_series() {
   }};
 }
 
+/// The series of a segmented scan: `Report::points_in`, `ground` and `segmented`.
+template <class Report>
+constexpr std::array<ReportedSeries<Report>, 3> segmentation_series() {
+  return {{
+      {"points_in", "-", "finite points in range",
+       [](const Report& s) { return double(s.points_in); }},
+      {"ground_points", "-", "returns of the ground",
+       [](const Report& s) { return double(s.ground); }},
+      {"segmented_points", "-", "returns of kept segments",
+       [](const Report& s) { return double(s.segmented); }},
+  }};
+}
+
 /// The series of the loops, `Report::loops`.
 template <class Report>
 constexpr std::array<ReportedSeries<Report>, 1> loop_series() {

@@ -17,12 +17,6 @@ int iterations(const ScanReport& scan) {
 }
 
 constexpr std::array kOwnSeries = {
-    Series{"points_in", "-", "finite points in range",
-           [](const ScanReport& s) { return double(s.points_in); }},
-    Series{"ground_points", "-", "returns of the ground",
-           [](const ScanReport& s) { return double(s.ground); }},
-    Series{"segmented_points", "-", "returns of kept segments",
-           [](const ScanReport& s) { return double(s.segmented); }},
     Series{"iterations", "-", "of odometry and mapping; 0: no update",
            [](const ScanReport& s) { return double(iterations(s)); }},
     Series{"ground_matches", "-", "planes of the last scan, first step of the odometry",
@@ -43,7 +37,8 @@ constexpr std::array kOwnSeries = {
 };
 
 constexpr std::array kSeries =
-    joined(kOwnSeries, features::mapping_series<ScanReport>(), features::loop_series<ScanReport>());
+    joined(features::segmentation_series<ScanReport>(), kOwnSeries,
+           features::mapping_series<ScanReport>(), features::loop_series<ScanReport>());
 
 }  // namespace
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/random.hpp"
+#include "estimator/filter/pose_information.hpp"
 #include "estimator/lidar/plane_model.hpp"
 
 namespace aims {

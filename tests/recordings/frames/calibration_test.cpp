@@ -74,42 +74,20 @@ void expect_right(const Result<Pose>& pose, const std::string& what) {
   EXPECT_LT((pose->R() - rotation()).norm(), 1e-9) << what;
 }
 
-/// T_imu_lidar in every format of a file.
-std::vector<std::string> written() {
+/// T_imu_lidar as numbers in files, directly.
+std::vector<std::string> written_directly() {
   const Eigen::Matrix4d T = T_imu_lidar();
   const Eigen::Matrix4d inverse = T.inverse();
   const Eigen::Vector4d q = quaternion_xyzw();
-  const std::string xyz =
-      fmt::format("{} {} {}", kTranslation.x(), kTranslation.y(), kTranslation.z());
   Eigen::Matrix4d in_mm = T;
   in_mm.topRightCorner<3, 1>() *= 1000.0;
-  Eigen::Matrix4d T_cam_imu = Eigen::Matrix4d::Identity();
-  T_cam_imu.topLeftCorner<3, 3>() << 0, -1, 0, 0, 0, -1, 1, 0, 0;
-  T_cam_imu.topRightCorner<3, 1>() << 0.01, 0.02, 0.03;
   return {
       "T_imu_lidar: [" + flat(T) + "]\n", "T_imu_lidar: [" + flat(T.topRows<3>()) + "]\n",
       "T_lidar_imu:" + rows(inverse) + "\n",
       "%YAML:1.0\n---\nT_IMU_LiDAR: !!opencv-matrix\n   rows: 4\n   cols: 4\n   dt: d\n   data: "
       "[ " +
           flat(T) + " ]\n",
-      "imu_T_lidar: [" + flat(T) + "]\n",
-      // Kalibr: both are known in the camera alone.
-      "cam0:\n  T_cam_imu:" + std::string("\n  - [") + flat(T_cam_imu.row(0)) + "]\n  - [" +
-          flat(T_cam_imu.row(1)) + "]\n  - [" + flat(T_cam_imu.row(2)) + "]\n  - [" +
-          flat(T_cam_imu.row(3)) + "]\n  camera_model: pinhole\n  T_cam_lidar: [" +
-          flat(T_cam_imu * T) + "]\n",
-      // MultiCal: sensors in the reference, which is the IMU or a camera.
-      "lidar0:\n  T_here_imu0:" + rows(inverse) +
-          "\n  relative_point_timestamp: false\n  rostopic: /rslidar_points\n",
-      R"({"imu0": {"T_here_cam0": [)" + flat(T_cam_imu.inverse()) +
-          R"(]}, "lidar0": {"T_here_cam0": [)" + flat((T_cam_imu * T).inverse()) + "]}}",
-      // Oxford Spires: one of three cameras has both.
-      "sensor:\n  cameras:\n    - label: cam_left\n      T_cam_lidar_t_xyz_q_xyzw: [9, 9, 9, 0, 0, "
-      "0, "
-      "1]\n    - label: cam_front\n      T_cam_lidar_t_xyz_q_xyzw: [" +
-          seven(T_cam_imu * T) + "]\n      T_cam_imu_t_xyz_q_xyzw: [" + seven(T_cam_imu) +
-          "]\n  T_base_lidar_t_xyz_q_xyzw: [0.0, 0.0, 0.124, 0.0, 0.0, 1.0, 0.0]\n",
-      "lidar_in_imu: [" + flat(T) + "]\n",
+      "imu_T_lidar: [" + flat(T) + "]\n", "lidar_in_imu: [" + flat(T) + "]\n",
       "imu_in_lidar:\n  translation: [" + flat(inverse.topRightCorner<3, 1>()) +
           "]\n  rotation_matrix: [" + flat(inverse.topLeftCorner<3, 3>()) + "]\n",
       "lidar_in_imu:\n  translation: [" + flat(kTranslation) + "]\n  quaternion_xyzw: [" + flat(q) +
@@ -121,7 +99,40 @@ std::vector<std::string> written() {
       // Ouster: the IMU is the sensor's frame here; translations in mm.
       R"({"imu_intrinsics": {"imu_to_sensor_transform": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]},
          "lidar_intrinsics": {"lidar_to_sensor_transform": [)" +
-          flat(in_mm) + "]}}",
+          flat(in_mm) + "]}}"};
+}
+
+/// T_imu_lidar as files of camera calibrations state it: by way of another sensor.
+std::vector<std::string> written_through_cameras() {
+  const Eigen::Matrix4d T = T_imu_lidar();
+  Eigen::Matrix4d T_cam_imu = Eigen::Matrix4d::Identity();
+  T_cam_imu.topLeftCorner<3, 3>() << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  T_cam_imu.topRightCorner<3, 1>() << 0.01, 0.02, 0.03;
+  return {
+      // Kalibr: both are known in the camera alone.
+      "cam0:\n  T_cam_imu:" + std::string("\n  - [") + flat(T_cam_imu.row(0)) + "]\n  - [" +
+          flat(T_cam_imu.row(1)) + "]\n  - [" + flat(T_cam_imu.row(2)) + "]\n  - [" +
+          flat(T_cam_imu.row(3)) + "]\n  camera_model: pinhole\n  T_cam_lidar: [" +
+          flat(T_cam_imu * T) + "]\n",
+      // MultiCal: sensors in the reference, which is the IMU or a camera.
+      "lidar0:\n  T_here_imu0:" + rows(T.inverse()) +
+          "\n  relative_point_timestamp: false\n  rostopic: /rslidar_points\n",
+      R"({"imu0": {"T_here_cam0": [)" + flat(T_cam_imu.inverse()) +
+          R"(]}, "lidar0": {"T_here_cam0": [)" + flat((T_cam_imu * T).inverse()) + "]}}",
+      // Oxford Spires: one of three cameras has both.
+      "sensor:\n  cameras:\n    - label: cam_left\n      T_cam_lidar_t_xyz_q_xyzw: [9, 9, 9, 0, 0, "
+      "0, "
+      "1]\n    - label: cam_front\n      T_cam_lidar_t_xyz_q_xyzw: [" +
+          seven(T_cam_imu * T) + "]\n      T_cam_imu_t_xyz_q_xyzw: [" + seven(T_cam_imu) +
+          "]\n  T_base_lidar_t_xyz_q_xyzw: [0.0, 0.0, 0.124, 0.0, 0.0, 1.0, 0.0]\n"};
+}
+
+/// T_imu_lidar as ROS publishes it.
+std::vector<std::string> written_for_ros() {
+  const Eigen::Vector4d q = quaternion_xyzw();
+  const std::string xyz =
+      fmt::format("{} {} {}", kTranslation.x(), kTranslation.y(), kTranslation.z());
+  return {
       fmt::format("static_transform_publisher {} {} {} {} imu lidar 100\n", xyz, kYaw, kPitch,
                   kRoll),
       fmt::format("rosrun tf2_ros static_transform_publisher {} {} {} {} {} imu lidar\n", xyz, q[0],
@@ -140,6 +151,15 @@ std::vector<std::string> written() {
                   "<joint name=\"knee\" type=\"revolute\"><origin xyz=\"9 9 9\"/><parent "
                   "link=\"imu\"/><child link=\"calf\"/></joint></robot>",
                   kRoll, kPitch, kYaw, xyz)};
+}
+
+/// T_imu_lidar in every format of a file.
+std::vector<std::string> written() {
+  std::vector<std::string> all = written_directly();
+  for (const auto& more : {written_through_cameras(), written_for_ros()}) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  return all;
 }
 
 TEST(Calibration, OneTransformInEveryFormatIsOneValue) {
