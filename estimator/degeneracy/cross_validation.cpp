@@ -14,6 +14,8 @@ namespace {
 
 /// Keeps a block without information invertible; far below the information of one return.
 constexpr double kRegularization = 1e-9;
+/// Keeps a ratio finite where a scan has no information [m^2 over its unit].
+constexpr double kTiny = 1e-12;
 /// Smaller shifts between scans count as standing [m].
 constexpr double kMinShift = 0.05;
 /// At the start each scan repeats the same pattern of rings, and the halves share it: real
@@ -135,12 +137,12 @@ void CrossValidatedInformation::update_fraction(double free_tilt) {
     if (i == 0) weakest_axis_ = axis;
   }
   weakest_ = fraction.minCoeff();
-  const auto undo = [&](const Eigen::Array3d& diagonal) -> Eigen::Matrix3d {
-    return within * V * diagonal.matrix().asDiagonal() * V.transpose();
-  };
   const Eigen::Array3d root_of_noise = ((1.0 + fraction) / 2.0).sqrt();
-  matrix_root_ = undo(fraction / root_of_noise);
-  vector_gain_ = undo(step * fraction / root_of_noise.square());
+  axes_ = V;
+  dual_axes_ = within * V;
+  real_ = solver.eigenvalues();
+  root_ = fraction / root_of_noise;
+  step_gain_ = step * fraction / root_of_noise.square();
 }
 
 PoseInformation CrossValidatedInformation::applied_to(const HalvesInformation& scan) const {
@@ -148,9 +150,16 @@ PoseInformation CrossValidatedInformation::applied_to(const HalvesInformation& s
   const Eigen::Vector3d rotation = scan.across_vector.head<3>();
   const Eigen::Vector3d position =
       scan.across_vector.tail<3>() - coupling(scan.across).transpose() * rotation;
+  const Eigen::Matrix3d within = axes_.transpose() * S * axes_;
+  const Eigen::Matrix3d across = axes_.transpose() * position_information(scan.across) * axes_;
+  const Eigen::Array3d of_scan = across.diagonal().array() / (within.diagonal().array() + kTiny);
+  const Eigen::Array3d limit = (of_scan > real_).select(real_ / of_scan, 1.0);
+  const Eigen::Matrix3d kept = dual_axes_ * root_.matrix().asDiagonal();
+  const Eigen::Vector3d gain = (limit * step_gain_).matrix();
   PoseInformation applied{scan.within, scan.across_vector};
-  applied.matrix.bottomRightCorner<3, 3>() += matrix_root_ * S * matrix_root_.transpose() - S;
-  applied.vector.tail<3>() = coupling(scan.within).transpose() * rotation + vector_gain_ * position;
+  applied.matrix.bottomRightCorner<3, 3>() += kept * within * kept.transpose() - S;
+  applied.vector.tail<3>() = coupling(scan.within).transpose() * rotation +
+                             dual_axes_ * gain.asDiagonal() * axes_.transpose() * position;
   return applied;
 }
 

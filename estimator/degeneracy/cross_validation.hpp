@@ -49,6 +49,11 @@ inline constexpr double kFreeTilt = 0.006;
 /// with instrumental variables, free of the bias towards no motion. The noise covariance of the
 /// vector is C = (W + X) / 2 at most; x then states A = X C^-1 X about the position.
 ///
+/// X and A come from averages, the vector from the scan. Where a scan holds more real information
+/// than the average, for example when an end wall comes into range, its vector is scaled down to
+/// the slope A: with a larger slope the iterated update would step beyond its goal, by more each
+/// time.
+///
 /// Sampling noise of X makes A positive where X is zero, so X and W are averaged along the route (a
 /// standing robot sees the same noise in every scan). Both are information about the position with
 /// the rotation unknown (Schur complement): in a curved corridor the unconstrained direction is an
@@ -90,8 +95,12 @@ class CrossValidatedInformation {
   } squared_tilt_;
   double sum_of_weights_ = 0.0;  ///< of the returns, average [1/m^2]
   Eigen::Matrix3d constrained_ = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d matrix_root_ = Eigen::Matrix3d::Zero();  ///< M, with A = M W M^T
-  Eigen::Matrix3d vector_gain_ = Eigen::Matrix3d::Zero();  ///< A over the slope of x
+  /// V and W V, with V^T W V = I and V^T X V diagonal.
+  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d dual_axes_ = Eigen::Matrix3d::Zero();
+  Eigen::Array3d real_ = Eigen::Array3d::Zero();       ///< X over W on these axes
+  Eigen::Array3d root_ = Eigen::Array3d::Zero();       ///< of A over W
+  Eigen::Array3d step_gain_ = Eigen::Array3d::Zero();  ///< A over the slope X of the vector
   Eigen::Matrix3d within_ = Eigen::Matrix3d::Zero();       ///< of the position, odometry axes
   Eigen::Matrix3d across_ = Eigen::Matrix3d::Zero();
 };

@@ -96,6 +96,24 @@ TEST(CrossValidatedInformation, AfterABendThePreviousCorridorIsForgotten) {
   EXPECT_TRUE(fraction.leaves_direction_free());
 }
 
+// The first scan of an end wall holds far more real information than the average along the corridor
+// before it. With the slope of the scan its step would be that many times the shift.
+TEST(CrossValidatedInformation, AWallThatComesIntoViewIsNotOverstepped) {
+  constexpr double kShift = 0.02;
+  RandomStream random(9, "cross_validation");
+  CrossValidatedInformation fraction = after(random, 0, 200, kStep);
+  for (int k = 200; k < 205; ++k) {
+    const HalvesInformation scan = scan_corridor(random, 60, kShift);
+    fraction.add(scan, Eigen::Vector3d(kStep * k, 0.0, 0.0));
+    if (fraction.leaves_direction_free()) continue;
+    const PoseInformation applied = fraction.applied_to(scan);
+    const double step = -applied.matrix.ldlt().solve(applied.vector)(3);
+    EXPECT_GT(step, 0.5 * kShift);
+    EXPECT_LT(step, 1.3 * kShift) << "scan " << k;
+  }
+  EXPECT_FALSE(fraction.leaves_direction_free());
+}
+
 TEST(CrossValidatedInformation, AppliesNothingAlongTheFreeDirection) {
   RandomStream random(3, "cross_validation");
   CrossValidatedInformation fraction;
