@@ -8,9 +8,9 @@ A simulated quadruped walks along a plain corridor of 78.6 m. For 18.6 m its LiD
 scan tells how far the robot has walked. Four estimators get the same data; look at the column M_list, the
 error of the corridor's length:
   lio       LiDAR and IMU: loses its way there and ends near 50 m
-  leg       legs alone: their steps are taken 20 % too short, all the way
+  leg       legs alone: their steps are taken a fifth too short, all the way
   aims_d    LiDAR, IMU and legs, weighed per direction: corrects the legs where scans allow it, within 1 %
-  tfs_plus  the same with fixed weights: about as good here, worse where both ends are open
+  tfs_plus  the same with fixed weights: here nearly as good, worse where both ends are open
 
 TEXT
 

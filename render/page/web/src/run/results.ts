@@ -258,7 +258,8 @@ function truthLine(data: RunPayload): HTMLElement | null {
     `From the truth: ${formatNumber(at(truth, "median_equivalent_returns"))} equivalent returns ` +
       `along the weakest axis (median); fewer than 10 in ${fraction("n10")} of the scans, ` +
       `fewer than 100 in ${fraction("n100")}, fewer than 1000 in ${fraction("n1000")}. ` +
-      "The best that any unbiased estimator could do with these sensors (posterior Cramér–Rao bound), standard deviation of the position at the end: " +
+      "Lower bound by the noise of the sensors (posterior Cramér–Rao, for legs that do not slip and without the " +
+      "knowledge that the floor is level), standard deviation of the position at the end: " +
       `${bound("longitudinal")} m along the corridor, ${bound("lateral")} m across, ${bound("vertical")} m up.`,
   );
 }
