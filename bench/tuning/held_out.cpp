@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "bench/metrics/paired_test.hpp"
@@ -36,6 +38,17 @@ std::string saved_text(const PairedGain& gain) {
   return fmt::format("{}: {} of {} held-out runs diverged instead of all (p = {:.2g}); {}",
                      fewer ? "use them" : "undecided", gain.diverged, gain.sequences,
                      p_of_saved(gain), kNoGain);
+}
+
+/// The table's cases by scenario and seed: the resampling depends on their order, which is another
+/// one in a tuning and in its results read from disk.
+std::vector<std::size_t> sorted_cases(const ResponseTable& table) {
+  std::vector<std::size_t> order(table.cases.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) {
+    return std::pair(table.cases[i].scenario, table.cases[i].seed);
+  });
+  return order;
 }
 
 }  // namespace
@@ -79,7 +92,7 @@ const char* name_of(FrontVerdict verdict) {
 PairedGain paired_gain(const ResponseTable& table, const Objective& objective, std::size_t point) {
   std::vector<std::size_t> cases;
   std::vector<double> differences;  // of logarithms: less is better
-  for (std::size_t i = 0; i < table.cases.size(); ++i) {
+  for (const std::size_t i : sorted_cases(table)) {
     const std::array one = {i};
     const auto before = objective_at(table, objective, kDefaults, one);
     const auto after = objective_at(table, objective, point, one);

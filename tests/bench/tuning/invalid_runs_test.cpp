@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "bench/tuning/analysis.hpp"
 #include "bench/tuning/held_out.hpp"
 #include "bench/tuning/objective.hpp"
@@ -113,6 +115,30 @@ TEST(FailedRunsOfTuning, OfTheDefaultsAloneLeaveNoGain) {
   table.default_runs[0].diverged = false;
   EXPECT_FALSE(defaults_all_diverged(table));
   EXPECT_TRUE(best_point(table, Objective())->gain);
+}
+
+// A tuning and its results read from disk have their sequences in another order.
+TEST(HeldOutVerdict, DoesNotDependOnTheOrderOfTheSequences) {
+  ResponseTable table;
+  table.ranges = {{.key = "a", .low = 0.0, .high = 1.0}};
+  table.defaults = {0.5};
+  table.points = {{1.0}};
+  table.runs = {{}};
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    table.cases.push_back({seed % 2 == 0 ? "corridor" : "garage", "", seed});
+    table.default_runs.push_back({0.2 + 0.01 * static_cast<double>(seed), false});
+    table.runs[0].push_back({0.1 + 0.02 * static_cast<double>(seed * 7 % 20), false});
+  }
+  const PairedGain gain = paired_gain(table, Objective(), 0);
+  ASSERT_TRUE(gain.interval.low);
+  ResponseTable reversed = table;
+  std::ranges::reverse(reversed.cases);
+  std::ranges::reverse(reversed.default_runs);
+  std::ranges::reverse(reversed.runs[0]);
+  const PairedGain same = paired_gain(reversed, Objective(), 0);
+  EXPECT_EQ(same.p, gain.p);
+  EXPECT_EQ(same.interval.low, gain.interval.low);
+  EXPECT_EQ(same.interval.high, gain.interval.high);
 }
 
 TEST(HeldOutVerdict, IsUndecidedWhereTheTestCannotConfirmTheInterval) {
