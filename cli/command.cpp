@@ -66,6 +66,11 @@ std::string near_command(const CLI::App& root, const std::string& word) {
   return "";
 }
 
+std::string path_of(const CLI::App& app) {
+  const CLI::App* parent = app.get_parent();
+  return parent == nullptr ? app.get_name() : path_of(*parent) + " " + app.get_name();
+}
+
 /// What is wrong with the words that name the command; empty when they do name one.
 std::string unknown_command(const CLI::App& root, std::span<char*> words) {
   const CLI::App* app = &root;
@@ -82,7 +87,8 @@ std::string unknown_command(const CLI::App& root, std::span<char*> words) {
       }
       std::vector<std::string> names;
       for (const CLI::App* each : below) names.push_back(each->get_name());
-      return fmt::format("unknown command '{}'; expected one of {}", word, fmt::join(names, ", "));
+      return fmt::format("unknown command '{}'; expected one of {} (`{} --help` describes them)", word,
+                         fmt::join(names, ", "), path_of(*app));
     }
     app = *found;
   }
@@ -93,11 +99,6 @@ std::string unknown_command(const CLI::App& root, std::span<char*> words) {
 const CLI::App& given_command(const CLI::App& app) {
   const auto given = app.get_subcommands();
   return given.empty() ? app : given_command(*given.back());
-}
-
-std::string path_of(const CLI::App& app) {
-  const CLI::App* parent = app.get_parent();
-  return parent == nullptr ? app.get_name() : path_of(*parent) + " " + app.get_name();
 }
 
 /// The first argument that the command does not know, with its nearest option.

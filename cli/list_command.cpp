@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,10 +15,14 @@
 namespace aims {
 namespace {
 
-void print_entry(const CatalogueEntry& entry) {
-  const std::string tags =
-      entry.tags.empty() ? "" : fmt::format("  [{}]", fmt::join(entry.tags, ", "));
-  print_out("  {:<20} {}{}\n", entry.name, entry.description, tags);
+void print_entries(const std::vector<CatalogueEntry>& entries) {
+  std::size_t width = 0;
+  for (const CatalogueEntry& each : entries) width = std::max(width, each.name.size());
+  for (const CatalogueEntry& each : entries) {
+    const std::string tags =
+        each.tags.empty() ? "" : fmt::format("  [{}]", fmt::join(each.tags, ", "));
+    print_out("  {:<{}}  {}{}\n", each.name, width, each.description, tags);
+  }
 }
 
 int list_command(const SharedOptions& shared, bool json) {
@@ -28,7 +33,7 @@ int list_command(const SharedOptions& shared, bool json) {
     return kOk;
   }
   print_out("Scenarios in {} [tags]:\n", shared.folder);
-  for (const CatalogueEntry& entry : scenario_catalogue(*files)) print_entry(entry);
+  print_entries(scenario_catalogue(*files));
   const std::vector<Family> families = families_of(*files);
   if (!families.empty()) print_out("Families of scenarios, which differ in one quantity:\n");
   for (const Family& family : families) {
@@ -36,11 +41,11 @@ int list_command(const SharedOptions& shared, bool json) {
               family.cases.size(), fmt::join(family.cases, ", "));
   }
   print_out("Robots, for robot.model:\n");
-  for (const CatalogueEntry& entry : robot_catalogue()) print_entry(entry);
+  print_entries(robot_catalogue());
   print_out("LiDAR models, for lidar.model:\n");
-  for (const CatalogueEntry& entry : lidar_catalogue()) print_entry(entry);
+  print_entries(lidar_catalogue());
   print_out("Estimators:\n");
-  for (const CatalogueEntry& entry : estimator_catalogue()) print_entry(entry);
+  print_entries(estimator_catalogue());
   return kOk;
 }
 
