@@ -156,6 +156,7 @@ Result<void> read_estimates(const ScoringRequest& request, std::vector<StampList
     const std::string name = request.names.empty() ? name_of(*file) : request.names[i];
     input.estimates.push_back({unique_name(name, input.estimates), source, file->kind,
                                std::move(file->trajectory), file->body_frame});
+    input.estimates.back().T_body_estimate = *extrinsic;
     if (!moved) note_body(input.truth, input.estimates.back(), input.notes);
   }
   return {};

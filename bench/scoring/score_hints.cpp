@@ -95,6 +95,17 @@ std::string turn_text(const Eigen::Quaterniond& rotation) {
                      axis.z());
 }
 
+/// "x y z qx qy qz qw" without negative zeros and what rounding leaves.
+std::string extrinsic_text(const Pose& pose) {
+  const Eigen::Vector3d& t = pose.translation;
+  const Eigen::Vector4d& q = pose.rotation.coeffs();
+  std::vector<std::string> numbers;
+  for (const double each : {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()}) {
+    numbers.push_back(fmt::format("{:.4g}", std::abs(each) < 5e-5 ? 0.0 : each));
+  }
+  return fmt::format("{}", fmt::join(numbers, " "));
+}
+
 /// Of attitudes that fit only when the numbers of one side are taken as w, x, y, z. `aligned`: the
 /// same pairs with the estimate aligned by its positions.
 std::optional<std::string> quaternion_order_hint(std::span<const PosePair> pairs,
@@ -150,7 +161,7 @@ std::optional<std::string> stamp_unit_hint(const Trajectory& estimate, const Tra
 }
 
 std::optional<std::string> body_frame_hint(const Trajectory& estimate, const Trajectory& truth,
-                                           const ScoreConfig& config) {
+                                           const Pose& T_body_estimate, const ScoreConfig& config) {
   if (config.truth == TruthContent::kPosition) return std::nullopt;
   const auto pairs = compared_pairs(valid_part(estimate), truth, config);
   if (pairs.size() < kFewestPairs) return std::nullopt;
@@ -166,12 +177,13 @@ std::optional<std::string> body_frame_hint(const Trajectory& estimate, const Tra
   if (auto order = quaternion_order_hint(pairs, best, scatter)) return order;
   const double turned = degrees(middle.angularDistance(Eigen::Quaterniond::Identity()));
   if (turned < kTurned || degrees(scatter) > kScatter) return std::nullopt;
-  const Eigen::Quaterniond q = snapped(middle);
+  const Eigen::Quaterniond turn = snapped(middle);
+  const Pose option = Pose{turn, Eigen::Vector3d::Zero()} * T_body_estimate;
   return fmt::format(
-      "its body frame is turned by {} against the truth's: --extrinsic '0 0 0 {:.4g} {:.4g} {:.4g} "
-      "{:.4g}' takes it to the truth's (the ATE aligned by heading does not depend on it, heading "
-      "error and ATE from the start do)",
-      turn_text(q), q.x() + 0.0, q.y() + 0.0, q.z() + 0.0, q.w());
+      "its body frame is turned by {} against the truth's: --extrinsic '{}' takes it to the truth's "
+      "(the ATE aligned by heading does not depend on it; heading error, RPE and ATE from the start "
+      "do)",
+      turn_text(turn), extrinsic_text(option));
 }
 
 }  // namespace aims

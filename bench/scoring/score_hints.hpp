@@ -15,8 +15,9 @@ namespace aims {
 std::optional<std::string> stamp_unit_hint(const Trajectory& estimate, const Trajectory& truth);
 
 /// Where the positions fit and the attitude differs from the truth's by one constant rotation of
-/// the body frame, of more than 10 deg: that rotation and the --extrinsic that takes it away.
+/// the body frame, of more than 10 deg: that rotation and the --extrinsic that takes it away, where
+/// `T_body_estimate` was already applied.
 std::optional<std::string> body_frame_hint(const Trajectory& estimate, const Trajectory& truth,
-                                           const ScoreConfig& config);
+                                           const Pose& T_body_estimate, const ScoreConfig& config);
 
 }  // namespace aims

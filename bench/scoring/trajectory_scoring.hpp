@@ -20,6 +20,7 @@ struct SourcedTrajectory {
   Trajectory trajectory;
   std::string body_frame = {};  ///< whose poses they are, where the file states it; e.g. "lidar"
   bool has_attitude = true;     ///< false: positions alone
+  Pose T_body_estimate = {};    ///< taken off its poses (--extrinsic)
 };
 
 /// Trajectories of any system, the truth, and over which ways M_list is taken.

@@ -266,6 +266,11 @@ TEST_F(ScoringInputs, ATurnedBodyFrameIsNamedWithTheExtrinsicThatCorrectsIt) {
   const auto again = score_trajectories(*read_scoring_input(request));
   EXPECT_LT(*again->estimates[0].scores.ate_m, 1e-4) << request.extrinsic;
   for (const std::string& note : again->notes) EXPECT_EQ(note.find("turned by"), std::string::npos);
+  request.extrinsic = "0 0 0 0 0 -0.70711 0.70711";  // the wrong way round
+  const auto wrong = score_trajectories(*read_scoring_input(request));
+  EXPECT_TRUE(std::ranges::any_of(wrong->notes, [](const std::string& note) {
+    return note.find("--extrinsic '0 0 0 0 0 0.7071 0.7071'") != std::string::npos;
+  })) << "what is given already counts";
 }
 
 TEST_F(ScoringInputs, EstimatesOfOneNameAreNumbered) {
