@@ -7,7 +7,6 @@
 #include "cli/commands.hpp"
 #include "cli/suite_options.hpp"
 #include "cli/terminal.hpp"
-#include "render/results/study_pictures.hpp"
 
 namespace aims {
 namespace {
@@ -22,14 +21,14 @@ Result<int> study_consistency(const SharedOptions& shared) {
   if (!study) return tl::unexpected(study.error());
   auto written = write_suite(*suite, shared.out);
   if (written) written = write_consistency(*study, *suite, shared.out);
-  if (written) written = draw_consistency(*study, shared.out);
   if (!written) return tl::unexpected(written.error());
   print_out("Along the weak axis, over the sequence\n{}\n", to_text(consistency_table(*study)));
   print_out("At the end of the sequence, root mean square over seeds [m]\n{}\n",
             to_text(end_table(*study)));
   print_outcome(*suite, shared);
-  print_out("results: {}, consistency.json, consistency.csv, pictures\n",
+  print_out("results: {}, consistency.json, consistency.csv\n",
             (fs::path(shared.out) / "consistency.md").string());
+  write_pages_of(shared.out, shared.quiet);
   return exit_code_of(*suite);
 }
 

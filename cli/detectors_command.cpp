@@ -4,10 +4,10 @@
 
 #include "bench/studies/detector_summary.hpp"
 #include "bench/studies/detectors.hpp"
+#include "bench/studies/suite_summary.hpp"
 #include "cli/commands.hpp"
 #include "cli/suite_options.hpp"
 #include "cli/terminal.hpp"
-#include "render/results/study_pictures.hpp"
 
 namespace aims {
 namespace {
@@ -23,8 +23,8 @@ Result<int> study_detectors(SharedOptions shared) {
   if (!suite) return tl::unexpected(suite.error());
   const auto study = detector_study(*suite, shared.out);
   if (!study) return tl::unexpected(study.error());
-  auto written = write_detectors(*study, shared.out);
-  if (written) written = draw_detectors(*study, shared.out);
+  auto written = write_suite(*suite, shared.out);
+  if (written) written = write_detectors(*study, shared.out);
   if (!written) return tl::unexpected(written.error());
   print_out(
       "{} runs; AUC with 95 % interval over runs, detection rate at {:.0f} % false alarms, "
@@ -33,6 +33,7 @@ Result<int> study_detectors(SharedOptions shared) {
   for (const std::string& warning : study->warnings) print_out("note: {}\n", warning);
   print_outcome(*suite, shared);
   print_out("results: {}\n", (fs::path(shared.out) / "detectors.md").string());
+  write_pages_of(shared.out, shared.quiet);
   return exit_code_of(*suite);
 }
 

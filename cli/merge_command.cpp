@@ -76,7 +76,7 @@ void declare_merge(Command command, const fs::path& /*scenarios*/) {
                  "Value of a diverged run in the objective, of which the fraction of\n"
                  "diverged runs is added too (10)");
   command.footer(
-      "Writes sweep.sqlite, sweep.csv, sweep.md and pictures.\n"
+      "Writes sweep.sqlite, sweep.csv and sweep.md.\n"
       "Examples:\n"
       "  aims merge out/sweep\n"
       "  sqlite3 out/sweep/sweep.sqlite \"SELECT p.value, avg(s.value) FROM parameters p\n"

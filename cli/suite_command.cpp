@@ -12,10 +12,8 @@
 #include "cli/commands.hpp"
 #include "cli/json_output.hpp"
 #include "cli/options.hpp"
-#include "cli/progress.hpp"
 #include "cli/suite_options.hpp"
 #include "cli/terminal.hpp"
-#include "render/results/study_pictures.hpp"
 
 namespace aims {
 namespace {
@@ -85,9 +83,7 @@ Result<void> write_results(const Suite& suite, const SuiteArguments& arguments) 
   const fs::path out = arguments.shared.out;
   auto written = write_suite(suite, out);
   if (written && arguments.trajectories) written = write_suite_runs(suite, out);
-  if (!written) return written;
-  DrawDisplay display(arguments.shared.quiet);
-  return draw_families(family_results(suite), out / "families", display.observer());
+  return written;
 }
 
 Result<Answer> suite_command(const SuiteArguments& arguments) {

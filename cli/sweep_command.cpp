@@ -85,8 +85,8 @@ void print_counts(const JobRun& run, const SharedOptions& shared, bool merged) {
   }
   const fs::path out = shared.out;
   if (merged) {
-    print_out("results: {}, sweep.csv, sweep.sqlite; to view them: aims page {}\n",
-              (out / "sweep.md").string(), shared.out);
+    print_out("results: {}, sweep.csv, sweep.sqlite\n", (out / "sweep.md").string());
+    write_pages_of(out, shared.quiet);
   } else {
     print_out("results: {}; to collect them: aims merge {}\n", (out / "jobs").string(), shared.out);
   }

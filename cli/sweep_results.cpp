@@ -8,7 +8,6 @@
 #include "bench/tuning/point_table.hpp"
 #include "bench/tuning/sweep_summary.hpp"
 #include "cli/terminal.hpp"
-#include "render/results/response_pictures.hpp"
 
 namespace aims {
 namespace {
@@ -26,10 +25,8 @@ Result<void> write_results(const MergedSweep& sweep, const Objective& objective,
   auto written = write_sqlite(sweep, out / "sweep.sqlite");
   if (written) written = write_sweep_csv(sweep, out / "sweep.csv");
   if (!written) return written;
-  std::vector<std::string> warnings;
-  const auto summary = write_sweep_summary(sweep, objective, out, draw_response, warnings);
-  if (!summary) warnings.push_back("no sweep.md: " + summary.error().message);
-  for (const std::string& warning : warnings) print_out("note: {}\n", warning);
+  const auto summary = write_sweep_summary(sweep, objective, out);
+  if (!summary) print_out("note: no sweep.md: {}\n", summary.error().message);
   return {};
 }
 

@@ -10,8 +10,7 @@
 
 namespace aims {
 
-/// Writes sweep.sqlite, sweep.csv and, of a sweep with ranges, sweep.md and pictures into `out`,
-/// which is made. What could not be drawn is printed as a note.
+/// Writes sweep.sqlite, sweep.csv and, of a sweep with ranges, sweep.md into `out`, which is made.
 Result<void> write_results(const MergedSweep& sweep, const Objective& objective,
                            const std::filesystem::path& out);
 

@@ -15,7 +15,6 @@
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"
 #include "estimator/estimator_spec.hpp"
-#include "render/results/response_pictures.hpp"
 
 namespace aims {
 namespace {
@@ -81,11 +80,7 @@ void print_applied(const TuneResult& result, const std::string& file) {
 
 Result<Answer> finish(const TuneArguments& arguments, const TuneResult& result) {
   const fs::path out = arguments.shared.out;
-  std::vector<std::string> warnings;
-  if (auto written = write_tuning(result, out, draw_response, warnings); !written) {
-    return tl::unexpected(written.error());
-  }
-  for (const std::string& warning : warnings) print_out("warning: {}\n", warning);
+  if (auto written = write_tuning(result, out); !written) return tl::unexpected(written.error());
   if (!result.complete) print_out("interrupted: the same command continues\n");
   const bool front = result.tables.size() > 1;
   if (!result.chosen.empty()) {
@@ -99,6 +94,7 @@ Result<Answer> finish(const TuneArguments& arguments, const TuneResult& result) 
   for (const std::string& line : left_out) print_out("INVALID RUNS: {}\n", line);
   for (const std::string& line : failed_lines(result)) print_out("FAILED RUNS: {}\n", line);
   print_out("results: {}\n", (out / "tune.md").string());
+  write_pages_of(out, arguments.shared.quiet);
   Json document = tune_json(result);
   document["out"] = out.string();
   if (!result.complete) return Answer{interrupted_code(), std::move(document)};

@@ -95,6 +95,37 @@ Json end_json(const ConsistencyInstant& end) {
           {"efficiency", json_of(end.efficiency)}};
 }
 
+/// Over time: what consistency.csv holds of the case.
+Json series_json(const std::vector<ConsistencyInstant>& instants) {
+  Json series;
+  for (const ConsistencyInstant& at : instants) {
+    series["t_s"].push_back(at.time_s);
+    series["nees"].push_back(json_of(at.nees));
+    series["nees_low"].push_back(json_of(at.bounds.low));
+    series["nees_high"].push_back(json_of(at.bounds.high));
+    series["error_rms_m"].push_back(json_of(at.error_rms_m));
+    series["sigma_rms_m"].push_back(json_of(at.sigma_rms_m));
+    series["bound_rms_m"].push_back(json_of(at.bound_rms_m));
+    series["leg_bound_rms_m"].push_back(json_of(at.leg_bound_rms_m));
+  }
+  return series;
+}
+
+/// The first run over time, as an example; null without one.
+Json example_json(const ConsistencyCase& each) {
+  for (std::size_t i = 0; i < each.runs.size(); ++i) {
+    if (each.runs[i].empty()) continue;
+    Json series;
+    for (const ConsistencySample& sample : each.runs[i]) {
+      series["t_s"].push_back(sample.time_s);
+      series["error_m"].push_back(json_of(sample.error_m));
+      series["two_sigma_m"].push_back(sample.sigma_m ? Json(2.0 * *sample.sigma_m) : Json());
+    }
+    return {{"seed", each.seeds[i]}, {"series", std::move(series)}};
+  }
+  return {};
+}
+
 Json case_json(const ConsistencyCase& each) {
   const Consistency& r = each.result;
   Json runs = Json::array();
@@ -118,6 +149,8 @@ Json case_json(const ConsistencyCase& each) {
           {"error_rms_m", json_of(r.error_rms_m)},
           {"efficiency", json_of(r.efficiency)},
           {"end", end_json(r.end)},
+          {"series", series_json(r.instants)},
+          {"example", example_json(each)},
           {"seeds", std::move(runs)}};
 }
 

@@ -207,10 +207,4 @@ std::string response_markdown(const ResponseTable& table, const Objective& objec
   return text;
 }
 
-std::string pictures_markdown(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += fmt::format("\n![{0}]({0})\n", name);
-  return text;
-}
-
 }  // namespace aims

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,13 +31,5 @@ TextTable gain_table(const ResponseTable& table, const Objective& objective, std
 /// Markdown of the best point, of sensitivity indices with their source, negligible parameters and
 /// interactions.
 std::string response_markdown(const ResponseTable& table, const Objective& objective);
-
-/// Draws the objective of a table into a folder; the files, by name
-/// (render/results/response_pictures.hpp).
-using DrawResponse = std::function<Result<std::vector<std::string>>(
-    const ResponseTable& table, const Objective& objective, const std::filesystem::path& folder)>;
-
-/// Links to the pictures, as Markdown.
-std::string pictures_markdown(const std::vector<std::string>& names);
 
 }  // namespace aims

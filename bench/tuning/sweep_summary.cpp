@@ -209,32 +209,18 @@ Result<std::vector<SweepResponse>> sweep_responses(const MergedSweep& sweep,
 }
 
 Result<void> write_sweep_summary(const MergedSweep& sweep, const Objective& objective,
-                                 const fs::path& folder, const DrawResponse& draw,
-                                 std::vector<std::string>& warnings) {
+                                 const fs::path& folder) {
   const auto responses = sweep_responses(sweep, objective.score);
   if (!responses) return tl::unexpected(responses.error());
   std::string text = "# Sweep\n";
   text += fmt::format("\n{} of {} jobs done.\n", sweep.count("done"), sweep.jobs.size());
-  for (std::size_t i = 0; i < responses->size(); ++i) {
-    const SweepResponse& response = (*responses)[i];
-    const Objective own = objective_for(objective, response.table);
+  for (const SweepResponse& response : *responses) {
     text += fmt::format("\n## `{}`\n\n", response.estimator);
     if (response.incomplete > 0) {
       text += fmt::format("{} points are left out: not all of their sequences are done.\n\n",
                           response.incomplete);
     }
-    text += response_markdown(response.table, own);
-    if (response.table.points.empty()) continue;
-    const std::string part = responses->size() > 1 ? fmt::format("estimator-{}", i + 1) : "";
-    std::error_code ignored;
-    fs::create_directories(folder / part, ignored);
-    auto drawn = draw(response.table, own, folder / part);
-    if (!drawn) {
-      warnings.push_back(drawn.error().message);
-      continue;
-    }
-    for (std::string& name : *drawn) name = part.empty() ? name : part + "/" + name;
-    text += pictures_markdown(*drawn);
+    text += response_markdown(response.table, objective_for(objective, response.table));
   }
   return write_file_atomically(folder / "sweep.md", text);
 }

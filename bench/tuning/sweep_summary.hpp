@@ -55,11 +55,9 @@ struct SweepResponse {
 Result<std::vector<SweepResponse>> sweep_responses(const MergedSweep& sweep,
                                                    const std::string& score);
 
-/// Writes sweep.md with the best points, sensitivity indices, and pictures beside it (in a folder
-/// per estimator where there are several), so far as jobs are done. Where default runs are missing,
-/// a relative objective becomes one of plain scores. What cannot be drawn is named in `warnings`.
+/// Writes sweep.md with the best points and sensitivity indices into `folder`, so far as jobs are
+/// done. Where default runs are missing, a relative objective becomes one of plain scores.
 Result<void> write_sweep_summary(const MergedSweep& sweep, const Objective& objective,
-                                 const std::filesystem::path& folder, const DrawResponse& draw,
-                                 std::vector<std::string>& warnings);
+                                 const std::filesystem::path& folder);
 
 }  // namespace aims

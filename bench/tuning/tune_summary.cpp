@@ -58,7 +58,7 @@ std::string single_markdown(const TuneResult& result) {
   return text;
 }
 
-std::string markdown_of(const TuneResult& result, const std::vector<std::string>& pictures) {
+std::string markdown_of(const TuneResult& result) {
   const TuneTask& task = result.task;
   std::string text = fmt::format("# Tuning `{}`\n\n", text_of(task.estimator));
   if (!result.complete) text += "**Interrupted: only finished points are included.**\n\n";
@@ -84,7 +84,6 @@ std::string markdown_of(const TuneResult& result, const std::vector<std::string>
     text += "\n## First objective\n\n" +
             response_markdown(result.tables.front(), task.plan.objectives.front());
   }
-  if (!pictures.empty()) text += "\n## Pictures\n" + pictures_markdown(pictures);
   return text;
 }
 
@@ -316,18 +315,8 @@ std::vector<std::string> failed_lines(const TuneResult& result) {
   return of_both(result, failed_lines);
 }
 
-Result<void> write_tuning(const TuneResult& result, const std::filesystem::path& folder,
-                          const DrawResponse& draw, std::vector<std::string>& warnings) {
-  std::vector<std::string> pictures;
-  if (!result.chosen.empty()) {
-    auto drawn = draw(result.tables.front(), result.task.plan.objectives.front(), folder);
-    if (drawn) {
-      pictures = std::move(*drawn);
-    } else {
-      warnings.push_back(drawn.error().message);
-    }
-  }
-  auto written = write_file_atomically(folder / "tune.md", markdown_of(result, pictures));
+Result<void> write_tuning(const TuneResult& result, const std::filesystem::path& folder) {
+  auto written = write_file_atomically(folder / "tune.md", markdown_of(result));
   if (!written) return written;
   written = write_file_atomically(folder / "tune.csv", csv_of(result).text());
   if (!written || result.chosen.empty() || result.tables.size() != 1) return written;

@@ -45,10 +45,8 @@ TextTable outcome_table(const TuneResult& result);
 /// held-out sequences say of it.
 TextTable front_table(const TuneResult& result);
 
-/// Writes tune.md, tune.csv (every point), tuned.yaml (of one objective) and pictures of the first
-/// objective into `folder`. Pictures that cannot be drawn are named in `warnings`.
-Result<void> write_tuning(const TuneResult& result, const std::filesystem::path& folder,
-                          const DrawResponse& draw, std::vector<std::string>& warnings);
+/// Writes tune.md, tune.csv (every point) and tuned.yaml (of one objective) into `folder`.
+Result<void> write_tuning(const TuneResult& result, const std::filesystem::path& folder);
 
 /// A line per sequence whose run is invalid, of those tuned on and those held out.
 std::vector<std::string> left_out_lines(const TuneResult& result);

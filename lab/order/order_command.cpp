@@ -5,7 +5,6 @@
 #include "cli/options.hpp"
 #include "cli/terminal.hpp"
 #include "lab/commands.hpp"
-#include "lab/order/order_pictures.hpp"
 #include "lab/order/order_study.hpp"
 
 namespace aims {
@@ -34,8 +33,7 @@ int order_command(OrderArguments arguments) {
               study->map->y, to_text(map_table(*study->map)));
   }
   if (arguments.shared.out.empty()) return kOk;
-  auto written = write_order(*study, arguments.folder, arguments.shared.out);
-  if (written) written = draw_order(*study, arguments.shared.out);
+  const auto written = write_order(*study, arguments.folder, arguments.shared.out);
   return written ? kOk : bad_input(kOrderName, written.error());
 }
 

@@ -60,7 +60,8 @@ Result<std::string> filled_template(std::string_view html, const PageData& page)
 }
 
 Result<std::string> page_html(const PageData& page) {
-  return filled_template(page_template(), page);
+  const bool run = page.json.value("kind", "") == "run";
+  return filled_template(page_template(run ? PageKind::kRun : PageKind::kStudy), page);
 }
 
 }  // namespace aims

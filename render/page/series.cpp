@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/scoring/json_text.hpp"
+#include "bench/studies/consistency_study.hpp"
 #include "core/series_style.hpp"
 
 namespace aims {
@@ -134,6 +135,37 @@ Result<Json> detector_curves(const std::filesystem::path& file, PageData& page) 
     const bool pooled = !member(score, "scenario").is_string();
     score["curve"] =
         page.f32(thinned(member(score, "curve"), pooled ? kMostPooled : kMostOfScenario));
+  }
+  return json;
+}
+
+namespace {
+
+/// Lists of numbers as arrays of the page; what is no number is NaN there.
+void make_arrays(Json& series, PageData& page) {
+  if (!series.is_object()) return;
+  for (const auto& [name, values] : series.items()) {
+    std::vector<float> numbers;
+    for (const Json& value : values) {
+      numbers.push_back(value.is_number() ? value.get<float>()
+                                          : std::numeric_limits<float>::quiet_NaN());
+    }
+    series[name] = page.f32(numbers);
+  }
+}
+
+}  // namespace
+
+Result<Json> consistency_series(const std::filesystem::path& file, PageData& page) {
+  auto json = read_json_of(file, kConsistencySchema);
+  if (!json) return json;
+  if (!member(*json, "cases").is_array()) {
+    return failure(file.string() + ": cases: expected a list");
+  }
+  for (Json& each : (*json)["cases"]) {
+    if (!each.is_object()) return failure(file.string() + ": cases: expected objects");
+    make_arrays(each["series"], page);
+    if (member(each, "example").is_object()) make_arrays(each["example"]["series"], page);
   }
   return json;
 }

@@ -63,4 +63,8 @@ PageData::Json styles_json(const std::vector<std::string>& labels);
 /// file is no detectors.json.
 Result<Json> detector_curves(const std::filesystem::path& file, PageData& page);
 
+/// Results of a consistency study for a page: consistency.json with each case's series, and those
+/// of its example, as arrays of the page. Error when the file is no consistency.json.
+Result<Json> consistency_series(const std::filesystem::path& file, PageData& page);
+
 }  // namespace aims

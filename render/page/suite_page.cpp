@@ -113,6 +113,17 @@ Result<Json> detectors_of(const fs::path& folder, const fs::path& asked, PageDat
   return Json();
 }
 
+/// The series of `aims study consistency`; null in other folders.
+Json consistency_of(const fs::path& folder, PageData& page, Json& notes) {
+  const fs::path file = folder / "consistency.json";
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return {};
+  auto series = consistency_series(file, page);
+  if (series) return std::move(*series);
+  notes.push_back("consistency.json cannot be used: " + series.error().message);
+  return {};
+}
+
 /// The file of `aims study paper` and its pictures; null in other folders.
 Result<Json> paper_of(const fs::path& folder, Json& notes) {
   const fs::path file = folder / "paper.json";
@@ -164,6 +175,7 @@ Result<PageData> suite_page(const fs::path& folder, const PageOptions& options) 
   Json notes = Json::array();
   auto detectors = detectors_of(folder, options.detectors, page, notes);
   if (!detectors) return tl::unexpected(detectors.error());
+  Json consistency = consistency_of(folder, page, notes);
   auto comparison = comparison_of(folder, options.against);
   if (!comparison) return tl::unexpected(comparison.error());
   auto paper = paper_of(folder, notes);
@@ -177,6 +189,7 @@ Result<PageData> suite_page(const fs::path& folder, const PageOptions& options) 
                {"headline", headline_scores_json()},
                {"runs", std::move(runs)},
                {"roc", std::move(*detectors)},
+               {"consistency", std::move(consistency)},
                {"compare", std::move(*comparison)},
                {"paper", std::move(*paper)},
                {"notes", std::move(notes)}};

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kMostFamilies = 12;  ///< with a curve of their own
 constexpr std::size_t kMostMaps = 28;      ///< pairs of parameters
+constexpr std::size_t kMostFamilyMaps = 112;  ///< pairs and families
 
 Json interval_json(const Interval& interval) {
   return Json::array({json_of(interval.low), json_of(interval.high)});
@@ -106,10 +107,16 @@ Json slice_json(const ResponseTable& table, const Slice& slice, PageData& page) 
   return json;
 }
 
-Json curves_json(const ResponseTable& table, const Objective& objective, PageData& page) {
+/// All sequences (""), then the families where there are several, but not too many.
+std::vector<std::string> groups_of(const ResponseTable& table) {
   std::vector<std::string> families = families_of(table);
   if (families.size() == 1 || families.size() > kMostFamilies) families.clear();
   families.insert(families.begin(), "");
+  return families;
+}
+
+Json curves_json(const ResponseTable& table, const Objective& objective, PageData& page) {
+  const std::vector<std::string> families = groups_of(table);
   Json curves = Json::array();
   for (std::size_t i = 0; i < table.ranges.size(); ++i) {
     for (const std::string& family : families) {
@@ -123,11 +130,16 @@ Json curves_json(const ResponseTable& table, const Objective& objective, PageDat
 Json maps_json(const ResponseTable& table, const Objective& objective, PageData& page) {
   Json maps = Json::array();
   const std::size_t count = table.ranges.size();
-  if (count * (count - 1) / 2 > kMostMaps) return maps;
+  const std::size_t pairs = count * (count - 1) / 2;
+  if (pairs > kMostMaps) return maps;
+  std::vector<std::string> groups = groups_of(table);
+  if (pairs * groups.size() > kMostFamilyMaps) groups = {""};
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t k = i + 1; k < count; ++k) {
-      Json map = slice_json(table, map_of(table, objective, i, k), page);
-      if (!map.is_null()) maps.push_back(std::move(map));
+      for (const std::string& group : groups) {
+        Json map = slice_json(table, map_of(table, objective, i, k, group), page);
+        if (!map.is_null()) maps.push_back(std::move(map));
+      }
     }
   }
   return maps;

@@ -57,7 +57,7 @@ TEST_F(CommandLine, DetectorsPrintsARowPerIndexAndSaysWhenNothingCanBeDetected) 
   }
   EXPECT_NE(outcome.output.find("all runs, n10: none of"), std::string::npos) << outcome.output;
   EXPECT_EQ(outcome.output.find("nan"), std::string::npos) << outcome.output;
-  EXPECT_TRUE(fs::exists(folder_.path() / "here" / "roc.png"));
+  EXPECT_TRUE(fs::exists(folder_.path() / "here" / "page.html"));
   EXPECT_EQ(aims("study detectors my.yaml --seeds 1 --out here").exit_code, 0) << "it continues";
   EXPECT_EQ(aims("study detectors my.yaml --seeds x --out new").exit_code, 2);
   EXPECT_EQ(aims("study detectors my.yaml --estimators leg --seeds 1 --out new").exit_code, 2);

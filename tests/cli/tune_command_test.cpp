@@ -59,7 +59,7 @@ TEST_F(Tunes, WriteValuesThatARunTakes) {
   EXPECT_TRUE(holds(tuned, "nothing can be concluded from one held-out sequence")) << tuned.output;
   EXPECT_FALSE(holds(tuned, "to use them: --set")) << tuned.output;
   EXPECT_LT(tuned.output.find("tuned values: "), tuned.output.find("tuned on")) << "it leads";
-  for (const char* name : {"tune.md", "tune.csv", "tuned.yaml", "tune.yaml", "points.png"}) {
+  for (const char* name : {"tune.md", "tune.csv", "tuned.yaml", "tune.yaml", "page.html"}) {
     EXPECT_TRUE(fs::exists(folder_.path() / "out" / name)) << name;
   }
   const std::string values = read_file(folder_.path() / "tuned.yaml").value();

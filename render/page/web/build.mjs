@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Builds the page: `npm run build -- --out DIR` writes DIR/page.js, DIR/page.css and DIR/page.html,
-// and DIR/watch.html, the page of `aims watch`.
-// page.html has both inlined and two marks left, each exactly once, for `aims page` to replace:
+// Builds the pages: `npm run build -- --out DIR` writes DIR/run.html (of a run), DIR/study.html (of
+// suites, sweeps and tunings) and DIR/watch.html (of `aims watch`), each with its script and style.
+// The first two have two marks left, each exactly once, for `aims page` to replace:
 // __AIMS_TITLE__ (escaped for HTML) and __AIMS_DATA__ (base64). Same sources, same bytes.
 // --modules DIR: the node_modules to build with, where they do not lie beside this file.
 import { createHash } from "node:crypto";
@@ -22,8 +22,8 @@ const out = path.resolve(values.out);
 const modules = path.resolve(values.modules);
 const { build } = createRequire(path.join(modules, "any.js"))("esbuild");
 
-/** Script and style of an entry, safe inside their own elements, and the template with both. */
-async function bundle(entry, banner, replaced) {
+/** The template with script and style of an entry, both safe inside their own elements. */
+async function bundled(entry, banner) {
   const result = await build({
     absWorkingDir: here,
     entryPoints: { page: entry },
@@ -45,33 +45,32 @@ async function bundle(entry, banner, replaced) {
     .replace(/<!--/g, "<\\!--");
   const style = textOf(".css").replace(/<\/style/gi, "<\\/style");
   const hash = createHash("sha256").update(script, "utf8").digest("base64");
-  let page = template
+  return template
     .replace("@@SCRIPT_HASH@@", () => `sha256-${hash}`)
     .replace("@@STYLE@@", () => style)
     .replace("@@SCRIPT@@", () => script);
-  for (const [mark, text] of replaced) page = page.replace(mark, () => text);
-  return { script, style, page };
 }
 
 const template = await readFile(path.join(here, "src/template.html"), "utf8");
-const { script, style, page } = await bundle("src/main.ts", "/* aims page; three.js (MIT), uPlot (MIT) */", []);
-for (const mark of ["__AIMS_TITLE__", "__AIMS_DATA__"]) {
-  if (page.split(mark).length !== 2) throw new Error(`page.html: expected ${mark} exactly once`);
+const pages = {
+  run: await bundled("src/run_page.ts", "/* aims page; three.js (MIT), uPlot (MIT) */"),
+  study: await bundled("src/study_page.ts", "/* aims page; Observable Plot, D3 (ISC) */"),
+};
+for (const [name, page] of Object.entries(pages)) {
+  for (const mark of ["__AIMS_TITLE__", "__AIMS_DATA__"]) {
+    if (page.split(mark).length !== 2) throw new Error(`${name}.html: expected ${mark} exactly once`);
+  }
 }
 // The page of `aims watch` has no data; it asks the program that serves it.
-const watch = await bundle("src/watch/watch.ts", "/* aims watch; uPlot (MIT) */", [
-  ["default-src 'none'", "default-src 'none'; connect-src 'self'"],
-  ["__AIMS_TITLE__", "aims watch"],
-  ["__AIMS_DATA__", ""],
-]);
+pages.watch = (await bundled("src/watch/watch.ts", "/* aims watch; uPlot (MIT) */"))
+  .replace("default-src 'none'", "default-src 'none'; connect-src 'self'")
+  .replace("__AIMS_TITLE__", "aims watch")
+  .replace("__AIMS_DATA__", "");
 
 await mkdir(out, { recursive: true });
-await writeFile(path.join(out, "page.js"), script);
-await writeFile(path.join(out, "page.css"), style);
-await writeFile(path.join(out, "watch.html"), watch.page);
-await writeFile(path.join(out, "page.html"), page);
-const kilobytes = (text) => `${Math.round(text.length / 1024)} KB`;
-console.log(
-  `${out}: page.js ${kilobytes(script)}, page.css ${kilobytes(style)}, ` +
-    `page.html ${kilobytes(page)}, watch.html ${kilobytes(watch.page)}`,
-);
+const sizes = [];
+for (const [name, page] of Object.entries(pages)) {
+  await writeFile(path.join(out, `${name}.html`), page);
+  sizes.push(`${name}.html ${Math.round(page.length / 1024)} KB`);
+}
+console.log(`${out}: ${sizes.join(", ")}`);

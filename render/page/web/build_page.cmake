@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Script: cmake -DWEB=render/page/web -DOUT=... -DNPM=... -DNODE=... -DREQUIRED=AUTO|ON -P build_page.cmake
 #   -- modules   installs what package-lock.json names into OUT/node_modules, writes OUT/modules.stamp
-#   -- page      bundles WEB into OUT/page.html, writes its inputs to OUT/page.d
-# Where that does not work, as without the registry, the page is an empty file: the build goes on,
+#   -- page      bundles WEB into OUT/run.html, study.html and watch.html, writes their inputs to OUT/page.d
+# Where that does not work, as without the registry, the pages are empty files: the build goes on,
 # and `aims page` says so. With REQUIRED=ON it is an error instead.
 math(EXPR last "${CMAKE_ARGC} - 1")
 set(part ${CMAKE_ARGV${last}})
@@ -33,16 +33,17 @@ endif()
 file(GLOB_RECURSE inputs ${WEB}/src/*)
 list(SORT inputs)
 list(JOIN inputs " \\\n  " inputs)
-file(WRITE ${OUT}/page.d "${OUT}/page.html: \\\n  ${inputs}\n")
+file(WRITE ${OUT}/page.d "${OUT}/run.html: \\\n  ${inputs}\n")
 file(READ ${OUT}/modules.stamp installed)
 if(NOT installed STREQUAL "installed\n")
-  file(WRITE ${OUT}/page.html "")
-  file(WRITE ${OUT}/watch.html "")
+  foreach(name run study watch)
+    file(WRITE ${OUT}/${name}.html "")
+  endforeach()
   return()
 endif()
 execute_process(COMMAND ${NODE} ${WEB}/build.mjs --modules ${OUT}/node_modules --out ${OUT}
   RESULT_VARIABLE code OUTPUT_VARIABLE log ERROR_VARIABLE log)
 if(NOT code EQUAL 0)
   # Installed but not bundled is a mistake in the sources, whatever is required.
-  message(FATAL_ERROR "bundling the page failed:\n${log}")
+  message(FATAL_ERROR "bundling the pages failed:\n${log}")
 endif()

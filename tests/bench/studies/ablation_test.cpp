@@ -8,7 +8,6 @@
 
 #include "bench/studies/consistency_study.hpp"
 #include "core/files/atomic_file.hpp"
-#include "render/results/study_pictures.hpp"
 #include "tests/bench/studies/short_walk.hpp"
 #include "tests/support/estimator_settings.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -150,9 +149,7 @@ TEST(ConsistencyStudy, KeepsASeriesPerSeedAndDoesTheJobsThatLackIt) {
   EXPECT_FALSE(study->at(1).runs[0].empty() || study->at(1).runs[0][0].sigma_m)
       << "leg states no covariance";
   ASSERT_TRUE(write_consistency(*study, *suite, out));
-  ASSERT_TRUE(draw_consistency(*study, out));
-  for (const char* name : {"consistency.md", "consistency.csv", "consistency.json",
-                           "short-aims-consistency.png", "short-leg-consistency.svg"}) {
+  for (const char* name : {"consistency.md", "consistency.csv", "consistency.json"}) {
     EXPECT_TRUE(fs::exists(out / name)) << name;
   }
   EXPECT_EQ(run_suite(one_walk(), options, keep_going)->run.done, 0U);

@@ -10,7 +10,6 @@
 #include "bench/studies/detector_summary.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/random.hpp"
-#include "render/results/study_pictures.hpp"
 #include "tests/bench/studies/short_walk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -94,14 +93,11 @@ TEST(Detectors, SayWhichLevelsNeverChangeAndHaveNoNan) {
   study.warnings = lines;
   const TemporaryFolder folder;
   ASSERT_TRUE(write_detectors(study, folder.path()));
-  ASSERT_TRUE(draw_detectors(study, folder.path()));
   for (const char* name : {"detectors.json", "detectors.csv", "detectors.md"}) {
     const std::string text = read_file(folder.path() / name).value();
     EXPECT_EQ(text.find("nan"), std::string::npos) << name;
     EXPECT_EQ(text.find("inf"), std::string::npos) << name;
   }
-  EXPECT_TRUE(fs::exists(folder.path() / "roc.png"));
-  EXPECT_TRUE(fs::exists(folder.path() / "roc.svg"));
 }
 
 TEST(Detectors, IntervalsComeFromRunsAndNotFromScans) {

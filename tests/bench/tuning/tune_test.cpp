@@ -18,7 +18,6 @@
 #include "core/files/yaml_config.hpp"
 #include "core/random.hpp"
 #include "estimator/degeneracy/degeneracy.hpp"
-#include "render/results/response_pictures.hpp"
 #include "tests/support/estimator_settings.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -254,10 +253,8 @@ TEST(TuneReport, OverlayLoadsOnTopOfAScenario) {
   const TemporaryFolder folder;
   const auto result = tuned(small_plan());
   ASSERT_TRUE(result);
-  std::vector<std::string> warnings;
-  ASSERT_TRUE(write_tuning(*result, folder.path(), draw_response, warnings));
-  EXPECT_TRUE(warnings.empty()) << warnings.front();
-  for (const char* name : {"tune.md", "tune.csv", "tuned.yaml", "points.png"}) {
+  ASSERT_TRUE(write_tuning(*result, folder.path()));
+  for (const char* name : {"tune.md", "tune.csv", "tuned.yaml"}) {
     EXPECT_TRUE(fs::exists(folder.path() / name)) << name;
   }
   const auto file = find_scenario("garage", kScenarios);
@@ -350,8 +347,7 @@ TEST(Tune, ProgressOfAllBatchesNeverFalls) {
 TEST(TuneReport, SaysWhetherTheGainHolds) {
   const auto report = [](const Bowl& bowl) {
     const TemporaryFolder folder;
-    std::vector<std::string> warnings;
-    EXPECT_TRUE(write_tuning(*tuned(small_plan(), bowl), folder.path(), draw_response, warnings));
+    EXPECT_TRUE(write_tuning(*tuned(small_plan(), bowl), folder.path()));
     std::ifstream stream(folder.path() / "tune.md");
     return std::string{std::istreambuf_iterator<char>(stream), {}};
   };

@@ -171,7 +171,7 @@ TEST_F(HostileFolder, ConfigurationOfAnotherVersionLeavesOutTheScene) {
 TEST_F(HostileFolder, FolderWithoutResultsIsRefusedWithWhatWasExpected) {
   const auto written = write_pages(folder_.path());
   ASSERT_FALSE(written);
-  const std::string expected = page_template().empty() ? "AIMS_PAGE" : "scores.json";
+  const std::string expected = page_template(PageKind::kRun).empty() ? "AIMS_PAGE" : "scores.json";
   EXPECT_NE(written.error().message.find(expected), std::string::npos) << written.error().message;
 }
 

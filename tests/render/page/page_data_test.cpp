@@ -99,17 +99,29 @@ TEST(PageTemplate, RefusesOneThatLacksAMarkAndSaysWhenThereIsNone) {
 }
 
 TEST(PageTemplate, ThatIsEmbeddedHasEachMarkOnceAndLoadsNothing) {
-  const std::string_view html = page_template();
-  if (html.empty()) GTEST_SKIP() << "built without the page: npm was not found or not reachable";
-  for (const std::string_view mark : {"__AIMS_TITLE__", "__AIMS_DATA__"}) {
-    const std::size_t first = html.find(mark);
-    ASSERT_NE(first, std::string_view::npos) << mark;
-    EXPECT_EQ(html.find(mark, first + 1), std::string_view::npos) << mark;
+  for (const PageKind kind : {PageKind::kRun, PageKind::kStudy}) {
+    const std::string_view html = page_template(kind);
+    if (html.empty()) GTEST_SKIP() << "built without the page: npm was not found or not reachable";
+    for (const std::string_view mark : {"__AIMS_TITLE__", "__AIMS_DATA__"}) {
+      const std::size_t first = html.find(mark);
+      ASSERT_NE(first, std::string_view::npos) << mark;
+      EXPECT_EQ(html.find(mark, first + 1), std::string_view::npos) << mark;
+    }
+    for (const std::string_view link :
+         {"rel=\"stylesheet\"", "src=\"http", "href=\"http", "@import"}) {
+      EXPECT_EQ(html.find(link), std::string_view::npos) << link;
+    }
   }
-  for (const std::string_view link :
-       {"rel=\"stylesheet\"", "src=\"http", "href=\"http", "@import"}) {
-    EXPECT_EQ(html.find(link), std::string_view::npos) << link;
-  }
+}
+
+TEST(PageTemplate, OfEachKindHasTheLibrariesThatItDrawsWith) {
+  const std::string_view run = page_template(PageKind::kRun);
+  const std::string_view study = page_template(PageKind::kStudy);
+  if (run.empty()) GTEST_SKIP() << "built without the page: npm was not found or not reachable";
+  EXPECT_NE(run.find("/* aims page; three.js"), std::string_view::npos);
+  EXPECT_NE(study.find("/* aims page; Observable Plot"), std::string_view::npos);
+  EXPECT_LT(study.size(), 450U * 1024U) << "no three.js";
+  EXPECT_LT(run.size(), 800U * 1024U) << "no Observable Plot";
 }
 
 }  // namespace

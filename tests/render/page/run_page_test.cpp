@@ -179,13 +179,13 @@ TEST_F(RunPage, OfThirteenSystemsAlongTheCorridorStaysUnderFiveMegabytes) {
   ASSERT_EQ(page->json["estimators"].size(), std::size_t{kSystems});
   const std::size_t data = payload_text(*page).size();
   const auto pictures = 4U * 100U * 1024U * 4U / 3U;
-  EXPECT_LT(data + pictures + page_template().size(), 5U * 1000U * 1000U) << data;
+  EXPECT_LT(data + pictures + page_template(PageKind::kRun).size(), 5U * 1000U * 1000U) << data;
 }
 
 TEST_F(RunPage, IsWrittenIntoTheFolderUnlessBuiltWithout) {
   testing::write_run(folder_.path() / "run", {});
   const auto written = write_pages(folder_.path() / "run");
-  if (page_template().empty()) {
+  if (page_template(PageKind::kRun).empty()) {
     ASSERT_FALSE(written);
     EXPECT_NE(written.error().message.find("AIMS_PAGE"), std::string::npos);
     GTEST_SKIP() << "built without the page: npm was not found or not reachable";

@@ -17,7 +17,7 @@ before(async () => {
   folder = await mkdtemp(path.join(os.tmpdir(), "aims-findings-"));
   const outfile = path.join(folder, "page.mjs");
   const { build } = createRequire(path.join(modules, "any.js"))("esbuild");
-  const sources = ["findings", "run/errors", "run/findings_of", "run/plan", "run/state_url", "run/camera3d", "charts/box_plot"];
+  const sources = ["findings", "run/errors", "run/findings_of", "run/plan", "run/state_url", "run/camera3d"];
   await build({
     stdin: {
       contents: sources.map((name) => `export * from "./src/${name}";`).join("\n"),
@@ -122,10 +122,4 @@ test("the state survives its address, and what is unknown is left out", () => {
   const state = { ...first, cursor: 2.5, from: 1, to: 4, chosen: 1, hidden: new Set([1]), tab: "internals", preset: "top", ceiling: true };
   assert.deepEqual({ ...first, ...page.stateIn(`#${page.hashOf(state, first, data)}`, data) }, state);
   assert.deepEqual(page.stateIn("#preset=nowhere&estimator=x&from=5&to=1&cursor=abc&hide=", data), {});
-});
-
-test("quantiles lie between neighbours", () => {
-  assert.equal(page.quantile([1, 2, 3, 4], 0.5), 2.5);
-  assert.equal(page.quantile([1, 2, 3, 4], 0.25), 1.75);
-  assert.ok(Number.isNaN(page.quantile([], 0.5)));
 });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Opens pages of made-up data with the built template, and leaves pictures of them where asked.
+// Opens pages of made-up studies with the built template, and leaves pictures of them where asked.
 import { existsSync } from "node:fs";
 import { mkdir, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import os from "node:os";
@@ -7,13 +7,13 @@ import path from "node:path";
 import { hasChromium, launch, open } from "./browser.mjs";
 import { fillTemplate } from "./pack.mjs";
 
-const kTemplate = process.env.AIMS_PAGE_TEMPLATE ?? "";
+const kTemplate = path.join(process.env.AIMS_PAGE_TEMPLATES ?? "", "study.html");
 const kArtifacts = process.env.AIMS_PAGE_ARTIFACTS ?? "";
 
 /** Why pages cannot be opened here; false when they can. */
 export function whySkipped() {
   if (!hasChromium()) return "no Chromium";
-  return existsSync(kTemplate) ? false : "AIMS_PAGE_TEMPLATE names no built page";
+  return existsSync(kTemplate) ? false : "AIMS_PAGE_TEMPLATES holds no study.html";
 }
 
 /** A browser and a folder for a file of tests. */

@@ -363,8 +363,7 @@ async function assertOverview(page, payload) {
   const lines = (where) => page.locator(`${where} [data-series]`).evaluateAll((list) => list.map((each) => each.dataset.series));
   assert.deepEqual(new Set(await lines(".overview-errors")), new Set(names));
   assert.deepEqual(new Set(await lines(".overview-plan")), new Set(names));
-  const shaded = await page.locator(".overview-errors rect.shade").count();
-  assert.ok(shaded <= (payload.localizability?.degenerate?.n100 ?? []).length, "no more than the degenerate intervals");
+  assert.ok((await stripInk(page, "error_distance")) > 0.01, "the error over distance drew");
   assert.equal(await page.locator('[data-control="level"]').inputValue(), "n100", "below 100 returns is degenerate");
   await page.locator(`[data-shown="${names[0]}"]`).uncheck();
   await page.waitForFunction(() => location.hash.includes("hide="));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The page of a run in a real browser. What is tested, by the environment:
-//   AIMS_PAGE_TEMPLATE       the built template: pages are made up with it (test/fixtures.mjs)
+//   AIMS_PAGE_TEMPLATES  folder of the built run.html: pages are made up with it (test/fixtures.mjs)
 //   AIMS_PAGES      folder with run/page.html, run/scores.json and others, of real runs
 //   AIMS_PAGE_MODULES    node_modules with playwright-core
 //   AIMS_PAGE_ARTIFACTS  where screenshots and made-up pages are kept
@@ -13,13 +13,13 @@ import { hasChromium, kChromium, launch, open, settle } from "./browser.mjs";
 import { kCases, writeFixtures } from "./fixtures.mjs";
 import { assertHolds, assertRunPage, cursorOf, kArtifacts } from "./run_checks.mjs";
 
-const template = process.env.AIMS_PAGE_TEMPLATE;
+const template = process.env.AIMS_PAGE_TEMPLATES && path.join(process.env.AIMS_PAGE_TEMPLATES, "run.html");
 const pages = process.env.AIMS_PAGES;
 const skip = hasChromium() ? false : `no ${kChromium}`;
 
 describe(
   "made-up runs",
-  { skip: skip || (template ? false : "AIMS_PAGE_TEMPLATE is not set") },
+  { skip: skip || (template ? false : "AIMS_PAGE_TEMPLATES is not set") },
   () => {
     let browser;
     let files;

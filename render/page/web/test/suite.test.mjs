@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 import assert from "node:assert/strict";
+import { readFile, writeFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
 import { keepPicture, needlessScrolls, overflows, stage, whySkipped } from "./made_up.mjs";
 import { comparison, detectors, paper, kHostile, suite } from "./suite_fixtures.mjs";
@@ -125,23 +126,47 @@ test("arrow keys move in the matrix and Enter opens a cell", { skip }, async () 
 test("the severity has a line per estimator, with intervals, over level and truth", { skip }, async () => {
   const { page, troubles } = await pages.show(suite());
   const chart = page.locator("#families figure.chart");
-  assert.equal(await chart.locator("g.series").count(), 2);
-  const bars = await chart.locator('g[data-series="a"] .bars').getAttribute("d");
-  assert.equal(bars.match(/V/g).length, 3);
-  assert.equal(await chart.locator("path.cross").count(), 1);
+  const bars = chart.locator('g.bars[aria-description="a"] > line');
+  assert.equal(await chart.locator("g.line > path").count(), 2);
+  assert.equal(await bars.count(), 3);
+  assert.equal(await chart.locator("g.cross > path").count(), 1);
   await chart.locator("svg[role=img]").focus();
   await page.keyboard.press("ArrowRight");
   assert.match(await chart.locator(".readout").innerText(), /^a: ATE yaw \[m\] 0\.0123 \[0\.00984, 0\.0160\] at severity \[step\] 1/);
   await page.locator("#families select").nth(2).selectOption("truth");
-  assert.equal((await page.locator('#families g[data-series="a"] .bars').getAttribute("d")).match(/V/g).length, 2);
+  assert.equal(await bars.count(), 2);
   await chart.getByRole("button", { name: "b", exact: true }).click();
-  assert.equal(await page.locator("#families g.series").count(), 1);
+  assert.equal(await chart.locator("g.line > path").count(), 1);
+  assert.deepEqual(troubles, []);
+});
+
+test("a chart is saved as an SVG file that needs nothing of the page", { skip }, async () => {
+  const { page, troubles } = await pages.show({ ...suite({ names: ["a", "b"] }), roc: detectors() }, { dark: true });
+  for (const [place, texts] of [["#families", [">a</text>", ">b</text>", "ATE yaw [m]", "severity [step]"]], ["#roc", ["detection rate", "AUC 0.732"]]]) {
+    const [download] = await Promise.all([page.waitForEvent("download"), page.locator(`${place} button.save`).click()]);
+    assert.match(download.suggestedFilename(), /^[\w.-]+\.svg$/);
+    const text = await readFile(await download.path(), "utf8");
+    for (const each of texts) assert.ok(text.includes(each), each);
+    assert.doesNotMatch(text, /var\(|color-mix|oklab|class=|<style/);
+    assert.match(text, /^<svg xmlns="http:\/\/www\.w3\.org\/2000\/svg"[^>]* viewBox="0 0 \d/);
+    assert.ok(text.includes('fill="#ffffff"') && text.includes('stroke="#2a24de"'), "the light colours");
+    // It is a picture of its own.
+    const size = await page.evaluate(async (source) => {
+      const image = new Image();
+      image.src = `data:image/svg+xml;base64,${btoa(unescape(encodeURIComponent(source)))}`;
+      await image.decode();
+      return [image.naturalWidth, image.naturalHeight];
+    }, text);
+    assert.ok(size[0] > 200 && size[1] > 200, `${size}`);
+    if (process.env.AIMS_PAGE_ARTIFACTS) await writeFile(`${process.env.AIMS_PAGE_ARTIFACTS}/${download.suggestedFilename()}`, text);
+  }
+  assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), "dark", "the page keeps its theme");
   assert.deepEqual(troubles, []);
 });
 
 test("ROC curves come with the areas under them", { skip }, async () => {
   const { page, troubles } = await pages.show({ ...suite(), roc: detectors() });
-  assert.equal(await page.locator("#roc g.series").count(), 2);
+  assert.equal(await page.locator("#roc g.line > path").count(), 2);
   assert.equal(await page.locator('#roc tr[data-row="D"] td').first().getAttribute("data-value"), "0.7321");
   await page.locator("#roc").getByLabel("Degenerate below").selectOption("n10");
   assert.match(await page.locator("#roc .nothing").innerText(), /no curve/);
@@ -179,9 +204,21 @@ test("one scenario over its seeds leads with a sentence, its table and box plots
   data.runs = data.runs.filter((run) => run.scenario === "severity_3");
   const { page, troubles } = await pages.show({ ...data, title: "severity_3, seeds 1–3" });
   assert.match(await page.locator("[data-verdict]").innerText(), /^a keeps .*; b fails\. Medians over 3 seeds\./);
-  assert.equal(await page.locator("#seeds .box").count(), 2);
-  assert.equal(await page.locator('#seeds .box[data-series="a"] .dot').count(), 3);
-  assert.equal(await page.locator('#seeds .box[data-series="b"] .failed').count(), 3, "seeds without success are crosses");
+  assert.equal(await page.locator("#seeds g.quartiles > rect").count(), 2);
+  assert.equal(await page.locator('#seeds g.dots[aria-description="a"] > circle').count(), 3);
+  assert.equal(await page.locator('#seeds g.failed[aria-description="b"] > path').count(), 3, "seeds without success are crosses");
+  // 0.01, 0.02 and 0.03 on a logarithmic axis: the quartiles lie half-way between neighbours.
+  const middles = (of) => page.locator(`#seeds ${of}`).evaluateAll((all) => all.map((each) => {
+    const { left, right } = each.getBoundingClientRect();
+    return (left + right) / 2;
+  }).sort((a, b) => a - b));
+  const [low, , high] = await middles('g.dots[aria-description="a"] > circle');
+  const box = await page.locator('#seeds g.quartiles[aria-description="a"] > rect').boundingBox();
+  const at = (value) => low + ((high - low) * Math.log(value / 0.01)) / Math.log(3);
+  assert.ok(Math.abs(box.x - at(0.015)) < 1.5 && Math.abs(box.x + box.width - at(0.025)) < 1.5, `${box.x}, ${box.width}`);
+  await page.locator("#seeds svg[role=img]").focus();
+  await page.keyboard.press("ArrowRight");
+  assert.match(await page.locator("#seeds .readout").innerText(), /^a, seed 1: 0\.0100$/);
   assert.match(await page.locator('#seeds tr[data-row="b"]').innerText(), /✕/, "a median over no success is marked");
   assert.doesNotMatch(await page.locator('#seeds tr[data-row="a"]').innerText(), /✕/);
   assert.deepEqual(troubles, []);

@@ -55,10 +55,10 @@ test("markers are measurements alone, a fit is a thin line without markers", { s
   data.estimators[0].analyses[0].curves[0].fit = { x, value: y, low: y.map((each) => each - 0.1), high: y.map((each) => each + 0.1) };
   const { page } = await pages.show(data);
   const chart = page.locator("#curves figure.chart").first();
-  assert.equal(await chart.locator("g.series").count(), 2);
-  assert.equal(await chart.locator("g.series path.marks").count(), 1);
-  assert.equal(await chart.locator("g.series path.line.thin").count(), 1);
-  assert.equal(await chart.locator("g.series path.line").count(), 1, "the markers are not joined beside a fit");
+  assert.equal(await chart.locator("g.marks > circle, g.marks > path").count(), 4);
+  assert.equal(await chart.locator("g.line:not([stroke-width]) > path").count(), 1, "of one pixel");
+  assert.equal(await chart.locator("g.line > path").count(), 1, "the markers are not joined beside a fit");
+  assert.equal(await chart.locator("g.band > path").count(), 1, "the fit has the area of its interval");
   assert.match(await page.locator("#curves .held").first().innerText(), /kappa = 10 \(default 12\.6\)/);
 });
 
@@ -66,27 +66,28 @@ test("each parameter has a curve with intervals, or every point by scenario", { 
   const { page, troubles } = await pages.show(tuning());
   const charts = page.locator("#curves figure.chart");
   assert.equal(await charts.count(), 2);
-  assert.equal((await charts.nth(0).locator(".bars").getAttribute("d")).match(/V/g).length, 4);
+  assert.equal(await charts.nth(0).locator("g.bars > line").count(), 4);
   await page.locator("#curves").getByLabel("Show").selectOption("cloud");
-  assert.equal(await charts.nth(0).locator("g.series").count(), 2);
-  assert.equal(await charts.nth(0).locator("path.cross").count(), 1);
+  assert.equal(await charts.nth(0).locator("g.marks").count(), 2);
+  assert.equal(await charts.nth(0).locator("g.cross > path").count(), 1);
   await page.locator(".toolbar").first().getByLabel("Score").selectOption("m_end_m");
   assert.match(await page.locator("#best").innerText(), /for m_end_m only the points/);
-  assert.equal(await charts.nth(0).locator("g.series").count(), 2);
+  assert.equal(await charts.nth(0).locator("g.marks").count(), 2);
   assert.deepEqual(troubles, []);
 });
 
 test("the map has a cell per pair of values and can be turned", { skip }, async () => {
   const { page } = await pages.show(tuning());
-  const cells = page.locator("#map rect.cell");
+  const cells = page.locator("#map g.cells > rect");
   assert.equal(await cells.count(), 12);
-  assert.match(await page.locator("#map .axis-label").first().textContent(), /eta/);
+  assert.match(await page.locator('#map [aria-label="x-axis label"]').textContent(), /eta/);
   await page.locator("#map").getByLabel("x axis").selectOption("1");
   assert.equal(await cells.count(), 12);
-  assert.match(await page.locator("#map .axis-label").first().textContent(), /kappa/);
+  assert.match(await page.locator('#map [aria-label="x-axis label"]').textContent(), /kappa/);
+  assert.ok((await page.locator('#map [aria-label="y-axis tick label"] text').allTextContents()).includes("4"));
   await page.locator("#map svg[role=img]").focus();
   await page.keyboard.press("ArrowRight");
-  assert.match(await page.locator("#map .readout").innerText(), /objective: ate_m \[m\] 1\.00 at degeneracy\.kappa 1\.00, degeneracy\.eta 0/);
+  assert.match(await page.locator("#map .readout").innerText(), /objective: ate_m \[m\] 0\.400 at degeneracy\.kappa 1\.00, degeneracy\.eta 6\.00/);
 });
 
 test("the points sort, the least objective first and in bold, which is the best point", { skip }, async () => {

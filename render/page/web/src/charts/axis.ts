@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** One axis of a chart: values to pixels, and where its ticks stand. */
+/** One axis of a chart: values to pixels, and where its ticks stand. All charts of the pages take their ticks here. */
 import { formatNumber } from "../format";
 
 export interface Axis {
@@ -9,16 +9,6 @@ export interface Axis {
   /** Position in [0, 1]; outside for values beyond the ends, NaN for what has no place. */
   at: (value: number) => number;
   ticks: { value: number; label: string }[];
-}
-
-/** Two axes and the rectangle that they span [px]. */
-export interface Frame {
-  x: Axis;
-  y: Axis;
-  left: number;
-  top: number;
-  width: number;
-  height: number;
 }
 
 function linearTicks(low: number, high: number, most: number): number[] {
@@ -74,7 +64,8 @@ export function axis(ends: [number, number], log: boolean, most: number): Axis {
   return { log, low, high, at, ticks: values.map((value) => ({ value, label: tickLabel(value) })) };
 }
 
-function tickLabel(value: number): string {
+/** Text of a tick; no ten-thousandths that come from rounding. */
+export function tickLabel(value: number): string {
   if (value === 0 || Math.abs(value) < 1e-12) return "0";
   const text = formatNumber(Number(value.toPrecision(6)), 6);
   if (text.includes("e")) return formatNumber(value, 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** SVG elements, and what marks of different series look like without colour. */
+/** SVG elements, and colour and dash of series in them. */
 
 import { seriesDash, styleIndex } from "../palette";
 
@@ -26,25 +26,6 @@ export function seriesPaint(index: number): string {
 /** Dash pattern of a series; with the mark it distinguishes series without colour. */
 export function dashOf(index: number): string {
   return seriesDash(index).join(" ");
-}
-
-/** Outline of the mark of a series around (x, y) with radius r. */
-export function markPath(index: number, x: number, y: number, r: number): string {
-  const p = (dx: number, dy: number) => `${(x + dx * r).toFixed(1)},${(y + dy * r).toFixed(1)}`;
-  switch ((styleIndex(index) + Math.floor(styleIndex(index) / 12)) % 6) {
-    case 0:
-      return `M${p(-1, 0)}a${r},${r} 0 1,0 ${2 * r},0a${r},${r} 0 1,0 ${-2 * r},0Z`;
-    case 1:
-      return `M${p(-0.9, -0.9)}L${p(0.9, -0.9)}L${p(0.9, 0.9)}L${p(-0.9, 0.9)}Z`;
-    case 2:
-      return `M${p(0, -1.15)}L${p(1.1, 0.85)}L${p(-1.1, 0.85)}Z`;
-    case 3:
-      return `M${p(0, -1.25)}L${p(1.25, 0)}L${p(0, 1.25)}L${p(-1.25, 0)}Z`;
-    case 4:
-      return `M${p(0, 1.15)}L${p(1.1, -0.85)}L${p(-1.1, -0.85)}Z`;
-    default:
-      return `M${p(-1.1, -0.4)}L${p(1.1, -0.4)}L${p(1.1, 0.4)}L${p(-1.1, 0.4)}Z`;
-  }
 }
 
 /** A short line in the style of a series. */

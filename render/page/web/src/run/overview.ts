@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** The first screen: who is shown, position error over distance, plan. */
-import { chart } from "../charts/chart";
-import { lineSample } from "../charts/svg";
+import { drawToFit, lineSample } from "../charts/svg";
 import type { RunPayload, TimeInterval } from "../contract";
 import { h } from "../dom";
-import { formatFixed, isNumber } from "../format";
+import { isNumber } from "../format";
+import { color, onTheme, seriesColor } from "../theme";
 import { errorTrack, thin, truePath, type Alignment, type ErrorTrack, type Path } from "./errors";
+import { Panel, type PanelSpec } from "./panel";
+import type { Backdrop } from "./panel_paint";
 import { planView } from "./plan";
-import { kLevels } from "./panels";
+import { dashed, kLevels } from "./panels";
 import { nearestIndex, type Store } from "./store";
 
-/** Errors are drawn from here on [m]. */
+/** Errors are drawn from here on, and no error at all is this [m]. */
 const kLeast = 0.01;
+const kSmallest = 1e-4;
 const kSamples = 500;
+const kHeight = 270;
 
 /** A box per estimator: is it shown? */
 export function visibility(data: RunPayload, store: Store): HTMLElement | null {
@@ -54,24 +58,70 @@ function shownTracks(data: RunPayload, path: Path, store: Store): Shown[] {
   });
 }
 
-function errorChart(data: RunPayload, path: Path, store: Store, shown: Shown[]): HTMLElement {
-  const end = Math.max(path.travelled[path.travelled.length - 1] ?? 1, 1);
+/** Errors of all, thinned. */
+function errorSpec(shown: Shown[]): PanelSpec {
   const most = Math.max(0.1, ...shown.map(({ track }) => track.error.reduce((a, b) => Math.max(a, b), 0)));
-  return chart(
-    shown.map(({ name, index, track }) => ({
-      name, index, bare: true,
-      marks: thin(track, kSamples).map((i) => ({
-        x: track.distance[i]!, y: Math.max(track.error[i]!, kLeast), note: `${formatFixed(track.t[i]!, 1)} s`,
-      })),
-    })),
-    {
-      label: "Position error of each estimator over the distance travelled",
-      xLabel: "distance travelled [m]", yLabel: "position error [m]", yLog: true, quiet: true, height: 300,
-      xEnds: [0, end], yEnds: [kLeast, 1.4 * most],
-      areas: shaded(data, path, store),
-      verticals: (data.waypoint_times ?? []).flatMap(({ name, t }) =>
-        isNumber(t) ? [{ x: path.travelled[nearestIndex(path.t, t)] ?? NaN, label: name }] : []),
+  const curves = shown.map(({ name, index, track }) => {
+    const kept = thin(track, kSamples);
+    return {
+      label: name, color: seriesColor(index), dash: dashed(index), width: 1.75,
+      track: {
+        times: Float32Array.from(kept, (i) => track.distance[i]!),
+        values: Float32Array.from(kept, (i) => Math.max(track.error[i]!, kSmallest)),
+      },
+    };
+  });
+  return {
+    id: "error_distance", title: "Position error", unit: "m", curves, log: true, range: [kLeast, 1.4 * most],
+    height: kHeight, xUnit: "m", hint: "Over the distance travelled",
+  };
+}
+
+/** The error over distance; its cursor is that of the run, or the pointer, and a press moves the run there. */
+class ErrorChart {
+  readonly element = h("div", { class: "stage", role: "img", "aria-label": "Position error of each estimator over the distance travelled" });
+  private shown: Shown[] = [];
+  private panel: Panel | null = null;
+
+  constructor(private readonly data: RunPayload, private readonly path: Path, private readonly store: Store) {
+    this.element.addEventListener("pointermove", (event) => this.panel?.showCursor(this.panel.timeAt(event.clientX)));
+    this.element.addEventListener("pointerleave", () => this.showCursor());
+    this.element.addEventListener("click", (event) => {
+      if (this.panel) store.moveTo(path.t[nearestIndex(path.travelled, this.panel.timeAt(event.clientX))] ?? 0);
     });
+    store.on(["cursor"], () => this.showCursor());
+    onTheme(() => this.build());
+    drawToFit(this.element, () => this.build());
+  }
+
+  draw(shown: Shown[]): void {
+    this.shown = shown;
+    this.build();
+  }
+
+  private distanceAt(seconds: number): number {
+    return this.path.travelled[nearestIndex(this.path.t, seconds)] ?? NaN;
+  }
+
+  private showCursor(): void {
+    this.panel?.showCursor(this.distanceAt(this.store.state.cursor));
+  }
+
+  private build(): void {
+    this.panel?.destroy();
+    this.panel = null;
+    const width = this.element.clientWidth;
+    if (width === 0) return;
+    const behind: Backdrop = {
+      shaded: shaded(this.data, this.path, this.store),
+      marks: (this.data.waypoint_times ?? []).flatMap(({ name, t }) =>
+        isNumber(t) ? [{ t: this.distanceAt(t), text: name, color: color("--ink-soft") }] : []),
+    };
+    const window = { from: 0, to: Math.max(this.path.travelled.at(-1) ?? 1, 1) };
+    this.panel = new Panel(errorSpec(this.shown), behind, width, window, true, true);
+    this.element.append(this.panel.element);
+    requestAnimationFrame(() => this.showCursor());
+  }
 }
 
 function alignmentChoice(store: Store): HTMLElement {
@@ -88,23 +138,23 @@ function alignmentChoice(store: Store): HTMLElement {
 export function overviewCharts(data: RunPayload, store: Store): { errors: HTMLElement; plan: HTMLElement } | null {
   const path = truePath(data);
   if (!path) return null;
-  const errors = h("div", {});
+  const chart = new ErrorChart(data, path, store);
+  const choices = h("div", { class: "choices" });
   const plan = h("div", {});
   const draw = () => {
     const shown = shownTracks(data, path, store);
     const level = kLevels.find(({ level: name }) => name === store.state.level);
     const degenerate = data.localizability
       ? h("span", { class: "legend-item" }, h("i", { class: "swatch shade" }), `below ${level?.returns ?? 100} equivalent returns`) : null;
-    errors.replaceChildren(
-      h("div", { class: "choices" }, alignmentChoice(store), degenerate),
-      errorChart(data, path, store, shown));
+    choices.replaceChildren(alignmentChoice(store), degenerate ?? "");
+    chart.draw(shown);
     plan.replaceChildren(planView(data, shown) ?? "");
   };
   draw();
   store.on(["hidden", "alignment", "level"], draw);
   return {
     errors: h("section", { class: "card overview-errors", "aria-label": "Position error over distance" },
-      h("h2", {}, "Position error over distance"), errors),
+      h("h2", {}, "Position error over distance"), choices, chart.element),
     plan: h("section", { class: "card overview-plan", "aria-label": "Plan" }, h("h2", {}, "Plan"), plan),
   };
 }

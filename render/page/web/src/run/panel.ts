@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** One strip of the timeline: a uPlot chart, a line for the cursor, values in the head. */
+/** One strip: a uPlot chart over time or distance, a line for the cursor, values in the head. */
 import uPlot from "uplot";
+import { axis as axisOf, tickLabel } from "../charts/axis";
 import { h } from "../dom";
 import { formatNumber } from "../format";
 import { color } from "../theme";
-import { axisText, decades, linearRange, logRange } from "./panel_axes";
+import { linearRange, logRange } from "./panel_axes";
 import { drawLevels, drawMarks, drawIntervals, type Backdrop } from "./panel_paint";
 import { align, valueAt, type Track } from "./series";
 
@@ -34,11 +35,18 @@ export interface PanelSpec {
   range?: [number, number];
   /** Horizontal lines that mean something, such as a threshold. */
   levels?: number[];
+  /** Height without the axis below [px]. */
+  height?: number;
+  /** Of the axis below; seconds without. */
+  xUnit?: string;
 }
 
 const kAxisWidth = 54;
 const kHeight = 84;
 const kTimeHeight = 28;
+/** Least room of a tick on the axis below and beside [px]. */
+const kTickWidth = 70;
+const kTickHeight = 21;
 /** Half of the last label of the time. */
 const kRightPadding = 16;
 const kFont = "11px system-ui, sans-serif";
@@ -72,7 +80,7 @@ export class Panel {
     this.sigma = spec.band ? h("output", { "data-series": "3 sigma" }) : null;
     const body = h("div", { class: "panel-body" });
     this.element = h("div", { class: "panel", "data-panel": spec.id }, this.head(), body);
-    const height = kHeight + (withTime ? kTimeHeight : 0);
+    const height = (spec.height ?? kHeight) + (withTime ? kTimeHeight : 0);
     this.plot = new uPlot(this.options(width, height, withTime), this.data(), body);
     this.line = h("div", { class: "cursor-line" });
     this.plot.over.append(this.line);
@@ -145,6 +153,8 @@ export class Panel {
     const soft = color("--ink-soft");
     const grid = { stroke: color("--grid"), width: 1 };
     const axis = { stroke: soft, font: kFont, grid, ticks: { show: false } };
+    const splits = (log: boolean, room: number) => (_plot: uPlot, _axis: number, low: number, high: number) =>
+      axisOf([low, high], log, Math.max(2, Math.floor(room))).ticks.map(({ value }) => value);
     const last = spec.curves.length + 1;
     return {
       width,
@@ -166,22 +176,16 @@ export class Panel {
           show: withTime,
           size: kTimeHeight,
           gap: 9,
-          space: 60,
-          values: (_plot, list) => list.map((value) => `${axisText(value)} s`),
+          splits: splits(false, (width - kAxisWidth) / kTickWidth),
+          values: (_plot, list) => list.map((value) => `${tickLabel(value)} ${spec.xUnit ?? "s"}`),
         },
         {
           ...axis,
           size: kAxisWidth,
           gap: 4,
-          space: spec.log ? 16 : 18,
-          values: (_plot, list) => list.map(axisText),
-          ...(spec.log
-            ? {
-                splits: (_plot: uPlot, _axis: number, low: number, high: number) =>
-                  decades(low, high, 4),
-                filter: (_plot: uPlot, list: number[]) => list,
-              }
-            : {}),
+          splits: splits(spec.log ?? false, (spec.height ?? kHeight) / kTickHeight),
+          filter: (_plot, list) => list,
+          values: (_plot, list) => list.map(tickLabel),
         },
       ],
       series: this.series(),
@@ -198,7 +202,7 @@ export class Panel {
     };
   }
 
-  /** Moves the line and shows the values there; seconds. */
+  /** Moves the line and shows the values there. */
   showCursor(seconds: number): void {
     const position = this.plot.valToPos(seconds, "x");
     const inside = position >= -1 && position <= this.plot.bbox.width / uPlot.pxRatio + 1;

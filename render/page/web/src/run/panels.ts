@@ -27,7 +27,7 @@ function parts(
 }
 
 /** Dash of a style; none for a solid line. */
-function dashed(index: number): number[] | undefined {
+export function dashed(index: number): number[] | undefined {
   const dash = seriesDash(index);
   return dash.length > 0 ? dash : undefined;
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** The plan: walls, truth and estimates from above. A long corridor is stretched across. */
 import { axis, type Axis } from "../charts/axis";
-import { dashOf, drawToFit, seriesPaint, svg } from "../charts/svg";
+import { figure } from "../charts/figure";
+import { dashOf, lineSample, seriesPaint, svg } from "../charts/svg";
 import type { RunPayload } from "../contract";
-import { h } from "../dom";
 import { formatNumber, isNumber } from "../format";
 import type { ErrorTrack } from "./errors";
 
@@ -161,31 +161,32 @@ function points(data: RunPayload, frame: Frame): SVGElement {
   return group;
 }
 
+function drawn(data: RunPayload, lines: PlanLine[], extent: Extent, outer: number): SVGSVGElement {
+  const id = "plan-clip";
+  const frame = planFrame(extent, outer - kMargin.left - kMargin.right);
+  const height = frame.height + kMargin.top + kMargin.bottom;
+  const truth = data.truth?.p ?? new Float32Array();
+  const clip = svg("clipPath", { id }, svg("rect", {
+    x: kMargin.left, y: kMargin.top, width: frame.width, height: frame.height }));
+  const inside = svg("g", { "clip-path": `url(#${id})` },
+    svg("path", { class: "walls", d: wallPath(data, frame) }),
+    svg("path", { class: "truth", d: pathOf(frame, truth.length / 3, (i) => [truth[3 * i]!, truth[3 * i + 1]!]) }),
+    ...[...lines].reverse().map(({ name, index, track }) => svg("path", {
+      class: "line", "data-series": name, style: `--paint: ${seriesPaint(index)}`, "stroke-dasharray": dashOf(index),
+      d: pathOf(frame, track.t.length, (i) => [track.p[3 * i]!, track.p[3 * i + 1]!]),
+    })), points(data, frame));
+  return svg("svg", {
+    class: "plan", width: outer, height, viewBox: `0 0 ${outer} ${height}`, "aria-label": "Walls, true path and estimated paths from above",
+  }, clip, axes(frame), inside);
+}
+
 /** The drawing, and again when its width changes; null without a truth. */
 export function planView(data: RunPayload, lines: PlanLine[]): HTMLElement | null {
   const extent = planExtent(data, lines);
   if (!extent) return null;
-  const stage = h("div", { class: "stage" });
-  const id = "plan-clip";
-  const draw = () => {
-    const outer = Math.max(240, stage.clientWidth || 600);
-    const frame = planFrame(extent, outer - kMargin.left - kMargin.right);
-    const height = frame.height + kMargin.top + kMargin.bottom;
-    const truth = data.truth?.p ?? new Float32Array();
-    const clip = svg("clipPath", { id }, svg("rect", {
-      x: kMargin.left, y: kMargin.top, width: frame.width, height: frame.height }));
-    const inside = svg("g", { "clip-path": `url(#${id})` },
-      svg("path", { class: "walls", d: wallPath(data, frame) }),
-      svg("path", { class: "truth", d: pathOf(frame, truth.length / 3, (i) => [truth[3 * i]!, truth[3 * i + 1]!]) }),
-      ...[...lines].reverse().map(({ name, index, track }) => svg("path", {
-        class: "line", "data-series": name, style: `--paint: ${seriesPaint(index)}`, "stroke-dasharray": dashOf(index),
-        d: pathOf(frame, track.t.length, (i) => [track.p[3 * i]!, track.p[3 * i + 1]!]),
-      })), points(data, frame));
-    stage.replaceChildren(svg("svg", {
-      width: outer, height, viewBox: `0 0 ${outer} ${height}`, role: "img",
-      "aria-label": "Walls, true path and estimated paths from above",
-    }, clip, axes(frame), inside));
-  };
-  drawToFit(stage, draw);
-  return h("figure", { class: "chart plan" }, stage);
+  return figure({
+    kind: "chart", name: `Plan of ${data.title}`,
+    draw: (width) => ({ svg: drawn(data, lines, extent, width), places: [] }),
+    keys: () => lines.map(({ name, index }) => ({ name, sample: lineSample(index) })),
+  }).element;
 }

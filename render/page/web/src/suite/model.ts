@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** The suite page's data, and functions on it. */
-import type { Maybe, PagePayload, Picture } from "../contract";
+import type { Maybe, Numbers, PagePayload, Picture } from "../contract";
 import { own } from "../dom";
 import { isNumber } from "../format";
 
@@ -119,6 +119,22 @@ export interface Detectors {
   warnings?: string[];
 }
 
+/** One estimator on one scenario; arrays by the names of consistency.json. */
+export interface ConsistencyCase {
+  scenario: string;
+  estimator: string;
+  runs: number;
+  inside_fraction: Maybe;
+  above_fraction: Maybe;
+  mean_nees: Maybe;
+  mean_nees_interval: [Maybe, Maybe];
+  two_sigma: { fraction: Maybe };
+  error_rms_m: Maybe;
+  efficiency: Maybe;
+  series: Record<string, Numbers>;
+  example: { seed: number; series: Record<string, Numbers> } | null;
+}
+
 export interface ScoreChange {
   scenario: string;
   estimator: string;
@@ -207,6 +223,7 @@ export interface SuitePayload extends PagePayload {
   headline: Headline[];
   runs: Run[];
   roc: Detectors | null;
+  consistency?: { cases: ConsistencyCase[] } | null;
   compare: Comparison | null;
   paper?: Paper | null;
   notes?: string[];

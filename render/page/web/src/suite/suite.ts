@@ -6,6 +6,7 @@ import { h, section } from "../dom";
 import { sortableTable } from "../table";
 import { themeButton } from "../theme";
 import { compareSection } from "./compare";
+import { consistencySection } from "./consistency";
 import { familySection } from "./families";
 import { matrixSection } from "./matrix";
 import { estimatorsOf, type Expectation, type SuitePayload } from "./model";
@@ -65,7 +66,7 @@ export function renderSuite(root: HTMLElement, data: SuitePayload): void {
   const banner = invalidBanner(data);
   const one = data.suite.scenarios.length === 1;
   const sections = [paperSection(data), one ? seedsSection(data) : matrixSection(data), one ? matrixSection(data) : seedsSection(data),
-    pairsSection(data), multiplesSection(data), familySection(data), rocSection(data), compareSection(data),
+    pairsSection(data), multiplesSection(data), familySection(data), rocSection(data), consistencySection(data), compareSection(data),
     expectationSection(data), failureSection(data)].filter((each) => each !== null);
   root.append(
     h("header", { class: "page-head" }, h("h1", {}, data.title), themeButton()),

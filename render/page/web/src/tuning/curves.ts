@@ -37,26 +37,43 @@ function cloudLines(data: TuningPayload, own: TunedEstimator, score: string, par
   })).filter((line) => line.marks.length > 0);
 }
 
+/** The objective of every point over that parameter, whatever the others are. */
+function pointLines(data: TuningPayload, own: TunedEstimator, analysis: Analysis, parameter: number): Line[] {
+  const points = pointsOf(data, own, analysis.score, { scenario: null, heldOut: false });
+  const isBest = (values: number[]) => analysis.best?.values.every((value, i) => Math.fround(value) === values[i]) ?? false;
+  const marks = points.map(({ index, values, untuned }): Mark => ({
+    x: values[parameter]!, y: analysis.objectives[index]!, note: untuned ? "defaults" : isBest(values) ? "best" : "",
+  }));
+  return [
+    { name: "points", index: 0, scatter: true, marks: marks.filter(({ note }) => note !== "best") },
+    { name: "best point", index: 1, unjoined: true, marks: marks.filter(({ note }) => note === "best") },
+  ].filter((line) => line.marks.length > 0);
+}
+
 function parameterHead(parameter: Parameter): HTMLElement {
   return h("h3", {}, parameter.name, parameter.meaning ? h("span", { class: "soft" }, `, ${parameter.meaning}`) : null);
 }
 
-/** A chart per parameter; `cloud` shows every point, else those that differ in this parameter alone. */
+/** Points that differ in one parameter alone with their fit; the objective of all points; their scores by scenario. */
+export type Shown = "slice" | "points" | "cloud";
+
+/** A chart per parameter. */
 export function curves(
-  data: TuningPayload, own: TunedEstimator, analysis: Analysis | undefined, score: string, cloud: boolean
+  data: TuningPayload, own: TunedEstimator, analysis: Analysis | undefined, score: string, shown: Shown
 ): HTMLElement {
   const figures = own.parameters.map((parameter, i) => {
     const slices = slicesOf(analysis, i);
-    const lines = cloud ? cloudLines(data, own, score, i) : sliceLines(slices);
-    const yLabel = cloud || !analysis ? `score: median ${score}` : analysis.axis;
-    const held = cloud ? "" : slices[0]?.held ?? "";
+    const lines = shown === "cloud" || !analysis ? cloudLines(data, own, score, i)
+      : shown === "points" ? pointLines(data, own, analysis, i) : sliceLines(slices);
+    const yLabel = shown === "cloud" || !analysis ? `score: median ${score}` : analysis.axis;
+    const held = shown === "slice" ? slices[0]?.held ?? "" : "";
     const verticals = [{ x: parameter.default, label: `default ${formatNumber(parameter.default)}` }];
     const body = lines.some((line) => line.marks.some((mark) => Number.isFinite(mark.y)))
       ? chart(lines, {
           label: `${yLabel} over ${parameter.name}`, xLabel: axisLabel(parameter), yLabel, height: 270,
           xLog: parameter.log, yLog: allPositive(lines), xEnds: parameterEnds(parameter), verticals,
         })
-      : h("p", { class: "nothing" }, cloud ? "No point has this score."
+      : h("p", { class: "nothing" }, shown !== "slice" ? "No point has this score."
           : "No curve: fewer than two points differ in this parameter alone, and no fit is supported. Choose “every point” instead.");
     return h("div", { "data-parameter": parameter.name }, parameterHead(parameter), body,
       held ? h("p", { class: "soft held" }, `At ${held}.`) : null);

@@ -8,13 +8,15 @@ import { axisLabel, type Analysis, type Slice, type TunedEstimator } from "./mod
 export interface Pair {
   first: number;
   second: number;
+  /** "": all scenarios. */
+  family?: string;
 }
 
 /** The pair that the objective depends on most, where that is known and its map is there. */
 export function firstPair(analysis: Analysis): Pair | null {
   const total = analysis.sensitivity?.resolved ? analysis.sensitivity.total : [];
   const weight = (slice: Slice) => (total[slice.first] ?? 0) + (total[slice.second ?? 0] ?? 0);
-  const best = analysis.maps.reduce<Slice | null>((most, each) => !most || weight(each) > weight(most) ? each : most, null);
+  const best = analysis.maps.filter(({ family }) => family === "").reduce<Slice | null>((most, each) => !most || weight(each) > weight(most) ? each : most, null);
   return best && best.second !== undefined ? { first: best.first, second: best.second } : null;
 }
 
@@ -31,15 +33,18 @@ function marksOf(own: TunedEstimator, analysis: Analysis, slice: Slice, x: numbe
 /** Map of the chosen pair, in the order that was chosen. */
 export function map(own: TunedEstimator, analysis: Analysis, pair: Pair, changed: (pair: Pair) => void): HTMLElement {
   const names = own.parameters.map((each, i) => ({ value: String(i), label: each.name }));
-  const { first: x, second: y } = pair;
-  const slice = analysis.maps.find((each) =>
-    (each.first === x && each.second === y) || (each.first === y && each.second === x));
+  const { first: x, second: y, family = "" } = pair;
+  const families = [...new Set(analysis.maps.map((each) => each.family))];
+  const slice = analysis.maps.find((each) => each.family === family &&
+    ((each.first === x && each.second === y) || (each.first === y && each.second === x)));
   const turned = slice?.first !== x;
   const choose = (nextX: number, nextY: number) => changed(nextX === nextY
-    ? { first: nextX, second: nextX === x ? x : y === nextX ? x : y } : { first: nextX, second: nextY });
+    ? { first: nextX, second: nextX === x ? x : y === nextX ? x : y, family } : { first: nextX, second: nextY, family });
   const bar = h("div", { class: "toolbar" },
     choice("x axis", names, String(x), (value) => choose(Number(value), Number(value) === y ? x : y)),
-    choice("y axis", names, String(y), (value) => choose(Number(value) === x ? y : x, Number(value))));
+    choice("y axis", names, String(y), (value) => choose(Number(value) === x ? y : x, Number(value))),
+    families.length > 1 ? choice("Scenarios", families.map((each) => ({ value: each, label: each || "all" })), family,
+      (value) => changed({ first: x, second: y, family: value })) : null);
   const points = slice?.measured ?? slice?.fit;
   if (!slice || !points?.y || x === y) {
     return h("div", {}, bar, h("p", { class: "nothing" },

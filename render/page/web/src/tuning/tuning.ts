@@ -5,7 +5,7 @@ import "./tuning.css";
 import { choice, facts, notes } from "../charts/controls";
 import { h, section } from "../dom";
 import { themeButton } from "../theme";
-import { curves } from "./curves";
+import { curves, type Shown } from "./curves";
 import { firstPair, map, type Pair } from "./map";
 import { pointsOf, scenariosOf, type TunedEstimator, type TuningPayload } from "./model";
 import { bestTable, outcome, pointTable, sensitivity } from "./tables";
@@ -13,7 +13,7 @@ import { bestTable, outcome, pointTable, sensitivity } from "./tables";
 interface View {
   estimator: TunedEstimator;
   score: string;
-  cloud: boolean;
+  shown: Shown;
   pair: Pair | null;
   scenario: string | null;
   heldOut: boolean;
@@ -47,15 +47,17 @@ function sensitivitySection(view: View): HTMLElement | null {
 
 function curveSection(data: TuningPayload, view: View, redraw: () => void): HTMLElement {
   const analysis = analysisOf(view);
-  if (!analysis) view.cloud = true;
+  const shown = analysis ? view.shown : "cloud";
   const kinds = [{ value: "cloud", label: "score of every point, by scenario" }];
-  if (analysis) kinds.unshift({ value: "slice", label: "objective, one parameter at a time" });
+  if (analysis) kinds.unshift(
+    { value: "slice", label: "objective, one parameter at a time" }, { value: "points", label: "objective of every point" });
   return section("curves", "By parameter",
-    h("div", { class: "toolbar" }, choice("Show", kinds, view.cloud ? "cloud" : "slice", (value) => {
-      view.cloud = value === "cloud";
+    h("div", { class: "toolbar" }, choice("Show", kinds, shown, (value) => {
+      view.shown = value as Shown;
       redraw();
-    })), curves(data, view.estimator, analysis, view.score, view.cloud),
-    h("p", { class: "soft" }, view.cloud ? "Median over the seeds of a scenario; ✕: a run diverged."
+    })), curves(data, view.estimator, analysis, view.score, shown),
+    h("p", { class: "soft" }, shown === "cloud" ? "Median over the seeds of a scenario; ✕: a run diverged."
+      : shown === "points" ? "All other parameters differ, too."
       : "Markers: measured, with 95 % intervals over seeds. Thin lines: fits with the interval of their error, where cross-validation supports them."));
 }
 
@@ -118,7 +120,7 @@ export function renderTuning(root: HTMLElement, data: TuningPayload): void {
     return;
   }
   const view: View = {
-    estimator: first, score: first.analyses[0]?.score ?? data.scores[0] ?? "", cloud: first.analyses[0]?.curves.length === 0,
+    estimator: first, score: first.analyses[0]?.score ?? data.scores[0] ?? "", shown: first.analyses[0]?.curves.length === 0 ? "points" : "slice",
     pair: null, scenario: null, heldOut: false,
   };
   const body = h("div", {});

@@ -1,27 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** Entry: decodes the payload and hands it to the page of its kind. */
+/** Decodes the payload and hands it to the page of its kind. */
 import "./style.css";
 import type { PagePayload } from "./contract";
 import { h } from "./dom";
 import { usePalette } from "./palette";
 import { decodePayload } from "./payload";
-import { renderRun } from "./run/page";
-import { renderSuite } from "./suite/suite";
 import { startTheme } from "./theme";
-import { renderTuning } from "./tuning/tuning";
 
 type Render = (root: HTMLElement, data: never) => void | Promise<void>;
-const kPages = new Map<string, Render>([
-  ["run", renderRun],
-  ["suite", renderSuite],
-  ["tuning", renderTuning],
-]);
 
 function nextFrame(): Promise<void> {
   return new Promise((resolve) => requestAnimationFrame(() => resolve()));
 }
 
-async function start(): Promise<void> {
+/** Shows the payload by one of `kinds`. */
+export async function startPage(kinds: Record<string, Render>): Promise<void> {
   const root = document.getElementById("page")!;
   const mark = document.documentElement.dataset;
   startTheme();
@@ -29,9 +22,9 @@ async function start(): Promise<void> {
     const source = document.getElementById("aims-data")!;
     const data: PagePayload = await decodePayload(source.textContent ?? "");
     source.remove();
-    const render = kPages.get(data.kind);
+    const render = Object.hasOwn(kinds, data.kind) ? kinds[data.kind] : undefined;
     if (!render)
-      throw new Error(`data: a page of kind ${String(data.kind)}, expected run, suite or tuning`);
+      throw new Error(`data: a page of kind ${String(data.kind)}, expected ${Object.keys(kinds).join(" or ")}`);
     usePalette(data.palette);
     if (data.title) document.title = data.title;
     root.classList.add(`${data.kind}-page`);
@@ -48,5 +41,3 @@ async function start(): Promise<void> {
     mark["ready"] = "failed";
   }
 }
-
-void start();
