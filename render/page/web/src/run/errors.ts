@@ -103,6 +103,22 @@ export function errorTrack(path: Path, estimator: Estimator, alignment: Alignmen
   return track;
 }
 
+/** The path of an estimate in its own frame, without a truth to compare it with. */
+export function ownTrack(estimator: Estimator): ErrorTrack | null {
+  const { t, p } = estimator.series ?? {};
+  if (!t || !p) return null;
+  const track: ErrorTrack = { t: [], distance: [], error: [], p: [], turn: 0 };
+  for (let i = 0; i < t.length; ++i) {
+    const at = [p[3 * i]!, p[3 * i + 1]!, p[3 * i + 2]!];
+    if (!at.every(Number.isFinite)) continue;
+    track.t.push(t[i]!);
+    track.distance.push(NaN);
+    track.error.push(0);
+    track.p.push(...at);
+  }
+  return track.t.length > 0 ? track : null;
+}
+
 /** Where an estimate leaves the truth for good. */
 export interface Loss {
   /** From then on the error stays above the limit [s]. */

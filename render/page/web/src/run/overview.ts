@@ -5,7 +5,7 @@ import type { RunPayload, TimeInterval } from "../contract";
 import { h } from "../dom";
 import { isNumber } from "../format";
 import { color, onTheme, seriesColor } from "../theme";
-import { errorTrack, thin, truePath, type Alignment, type ErrorTrack, type Path } from "./errors";
+import { errorTrack, ownTrack, thin, truePath, type Alignment, type ErrorTrack, type Path } from "./errors";
 import { Panel, type PanelSpec } from "./panel";
 import type { Backdrop } from "./panel_paint";
 import { planView } from "./plan";
@@ -50,10 +50,10 @@ interface Shown {
   track: ErrorTrack;
 }
 
-function shownTracks(data: RunPayload, path: Path, store: Store): Shown[] {
+function shownTracks(data: RunPayload, path: Path | null, store: Store): Shown[] {
   return data.estimators.flatMap((item, i): Shown[] => {
     if (store.state.hidden.has(i)) return [];
-    const track = errorTrack(path, item, store.state.alignment);
+    const track = path ? errorTrack(path, item, store.state.alignment) : ownTrack(item);
     return track ? [{ name: item.name, index: item.colour_index, track }] : [];
   });
 }
@@ -134,27 +134,39 @@ function alignmentChoice(store: Store): HTMLElement {
   return h("label", {}, "aligned by ", select);
 }
 
-/** Both charts; null without a truth. */
-export function overviewCharts(data: RunPayload, store: Store): { errors: HTMLElement; plan: HTMLElement } | null {
+/** The plan; without a truth, of the estimates in their own frame. */
+function planCard(plan: HTMLElement): HTMLElement {
+  return h("section", { class: "card overview-plan", "aria-label": "Plan" }, h("h2", {}, "Plan"), plan);
+}
+
+/** Both charts; no errors without a truth, null without any path. */
+export function overviewCharts(
+  data: RunPayload, store: Store,
+): { errors: HTMLElement | null; plan: HTMLElement } | null {
   const path = truePath(data);
-  if (!path) return null;
+  const plan = h("div", {});
+  const drawPlan = () => plan.replaceChildren(planView(data, shownTracks(data, path, store)) ?? "");
+  if (!path) {
+    if (shownTracks(data, null, store).length === 0) return null;
+    drawPlan();
+    store.on(["hidden"], drawPlan);
+    return { errors: null, plan: planCard(plan) };
+  }
   const chart = new ErrorChart(data, path, store);
   const choices = h("div", { class: "choices" });
-  const plan = h("div", {});
   const draw = () => {
-    const shown = shownTracks(data, path, store);
     const level = kLevels.find(({ level: name }) => name === store.state.level);
     const degenerate = data.localizability
       ? h("span", { class: "legend-item" }, h("i", { class: "swatch shade" }), `below ${level?.returns ?? 100} equivalent returns`) : null;
     choices.replaceChildren(alignmentChoice(store), degenerate ?? "");
-    chart.draw(shown);
-    plan.replaceChildren(planView(data, shown) ?? "");
+    chart.draw(shownTracks(data, path, store));
+    drawPlan();
   };
   draw();
   store.on(["hidden", "alignment", "level"], draw);
   return {
     errors: h("section", { class: "card overview-errors", "aria-label": "Position error over distance" },
       h("h2", {}, "Position error over distance"), choices, chart.element),
-    plan: h("section", { class: "card overview-plan", "aria-label": "Plan" }, h("h2", {}, "Plan"), plan),
+    plan: planCard(plan),
   };
 }

@@ -140,7 +140,7 @@ export function renderRun(root: HTMLElement, data: RunPayload): void {
   const strips = timeline(data, store);
   const lead = themed(() => leadSection(data));
   const charts = overviewCharts(data, store);
-  const overview = h("div", { class: charts ? "overview" : "" }, lead, charts?.errors ?? "");
+  const overview = h("div", { class: charts?.errors ? "overview" : "" }, lead, charts?.errors ?? "");
   const rest = themed(() => detailSection(data));
   const grid = pictureGrid(data.pictures);
   const pictures = grid ? section("pictures", "Pictures", grid) : null;

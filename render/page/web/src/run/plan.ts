@@ -180,7 +180,7 @@ function drawn(data: RunPayload, lines: PlanLine[], extent: Extent, outer: numbe
   }, clip, axes(frame), inside);
 }
 
-/** The drawing, and again when its width changes; null without a truth. */
+/** The drawing, and again when its width changes; null without any path. */
 export function planView(data: RunPayload, lines: PlanLine[]): HTMLElement | null {
   const extent = planExtent(data, lines);
   if (!extent) return null;
