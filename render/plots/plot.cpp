@@ -26,8 +26,9 @@ const Color kFrame{0.25, 0.25, 0.25};
 const Color kArea{0.80, 0.80, 0.80};
 
 std::vector<Tick> ticks_of(const Axis& axis, double pixels, double spacing) {
-  if (axis.logarithmic) return logarithmic_ticks(axis.min, axis.max);
-  return linear_ticks(axis.min, axis.max, std::max(2, static_cast<int>(pixels / spacing)));
+  const int most = std::max(2, static_cast<int>(pixels / spacing));
+  return axis.logarithmic ? logarithmic_ticks(axis.min, axis.max, most)
+                          : linear_ticks(axis.min, axis.max, most);
 }
 
 void draw_x_axis(Canvas& canvas, const Rect& area, const Axis& axis) {
