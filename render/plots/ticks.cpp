@@ -24,8 +24,8 @@ std::string power_label(double factor, int decade) {
   return fmt::format("{:g}e{}{}", factor, decade < 0 ? "\u2212" : "", std::abs(decade));
 }
 
-/// Smallest of 1, 2, 5 times a power of ten that is at least 0.8 of `rough`: a tick or two more beat
-/// a step that is twice as wide.
+/// Smallest of 1, 2, 5 times a power of ten that is at least 0.8 of `rough`: a tick or two more
+/// beat a step that is twice as wide.
 double nice_step(double rough) {
   const double decade = std::pow(10.0, std::floor(std::log10(rough)));
   for (const double factor : {1.0, 2.0, 5.0}) {

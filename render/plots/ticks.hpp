@@ -12,8 +12,8 @@ struct Tick {
   std::string label;
 };
 
-/// About `most` ticks at 1, 2 or 5 times a power of ten inside [min, max]; empty when the interval is
-/// empty or not finite. Pages have the same rule (render/page/web/src/charts/axis.ts);
+/// About `most` ticks at 1, 2 or 5 times a power of ten inside [min, max]; empty when the interval
+/// is empty or not finite. Pages have the same rule (render/page/web/src/charts/axis.ts);
 /// tests/render/plots/ticks.txt holds both.
 std::vector<Tick> linear_ticks(double min, double max, int most);
 
