@@ -226,8 +226,7 @@ TEST(Tune, TwoObjectivesGiveAFront) {
   const TextTable front = front_table(*result);
   EXPECT_EQ(front.rows.size(), result->chosen.size() + 1);
   EXPECT_EQ(front.header.size(), 3U + 4U + 1U);
-  EXPECT_NE(held_out_verdict(*result).find("front"), std::string::npos)
-      << held_out_verdict(*result);
+  EXPECT_NE(held_out_verdict(*result).find("front"), std::string::npos) << held_out_verdict(*result);
 }
 
 TEST(FrontVerdict, IsBetterOnlyIfNoObjectiveIsWorse) {
