@@ -9,7 +9,8 @@
 
 namespace aims {
 
-/// What a page shows: a run, or a suite, sweep or tuning. Each has the libraries that it draws with.
+/// What a page shows: a run, or a suite, sweep or tuning. Each has the libraries that it draws
+/// with.
 enum class PageKind { kRun, kStudy };
 
 /// The page that render/page/web is built into, with the marks `__AIMS_TITLE__` and `__AIMS_DATA__`

@@ -15,8 +15,8 @@
 namespace aims {
 namespace {
 
-constexpr std::size_t kMostFamilies = 12;  ///< with a curve of their own
-constexpr std::size_t kMostMaps = 28;      ///< pairs of parameters
+constexpr std::size_t kMostFamilies = 12;     ///< with a curve of their own
+constexpr std::size_t kMostMaps = 28;         ///< pairs of parameters
 constexpr std::size_t kMostFamilyMaps = 112;  ///< pairs and families
 
 Json interval_json(const Interval& interval) {

@@ -26,8 +26,9 @@ const Color kFrame{0.25, 0.25, 0.25};
 const Color kArea{0.80, 0.80, 0.80};
 
 std::vector<Tick> ticks_of(const Axis& axis, double pixels, double spacing) {
-  if (axis.logarithmic) return logarithmic_ticks(axis.min, axis.max);
-  return linear_ticks(axis.min, axis.max, std::max(2, static_cast<int>(pixels / spacing)));
+  const int most = std::max(2, static_cast<int>(pixels / spacing));
+  return axis.logarithmic ? logarithmic_ticks(axis.min, axis.max, most)
+                          : linear_ticks(axis.min, axis.max, most);
 }
 
 void draw_x_axis(Canvas& canvas, const Rect& area, const Axis& axis) {
@@ -195,10 +196,6 @@ void draw_panel(Canvas& canvas, const Rect& area, const Panel& panel) {
   }
   for (const Series& series : panel.series) {
     canvas.line(thinned_line(pixels(series.points)), series.stroke);
-    for (const Eigen::Vector2d& point : series.points) {
-      if (series.dot <= 0.0 || !point.allFinite()) continue;
-      canvas.disc(to_pixels(panel, area, point), series.dot, series.stroke.color);
-    }
   }
   draw_marks(canvas, area, panel);
   canvas.unclip();
@@ -258,26 +255,6 @@ Result<void> write_figure(const std::filesystem::path& path, const Figure& figur
   for (const Panel& panel : figure.panels) {
     draw_panel(*canvas, {kLeftMargin, y + kPanelTop, width, panel.height}, panel);
     y += kPanelTop + panel.height + kPanelBottom;
-  }
-  return canvas->finish();
-}
-
-Result<void> write_panel_row(
-    const std::filesystem::path& path, const PanelRow& row,
-    const std::function<void(Canvas& canvas, std::size_t i, const Rect& area)>& draw) {
-  constexpr double kSide = 400.0;
-  constexpr double kTop = 104.0;
-  constexpr double kGap = 60.0;  // of the last panel's pitch beyond its side
-  const auto panels = static_cast<double>(std::max<std::size_t>(1, row.panels));
-  const double width = std::max(kLeftMargin + panels * row.pitch + row.right - kGap, row.min_width);
-  const Heading heading(row.title, row.subtitle, width - kLeftMargin - kRightMargin);
-  const double top = kTop + heading.extra_height();
-  auto canvas =
-      Canvas::create(path, static_cast<int>(width), static_cast<int>(top + kSide + row.below));
-  if (!canvas) return tl::unexpected(canvas.error());
-  heading.draw(*canvas, kLeftMargin);
-  for (std::size_t i = 0; i < row.panels; ++i) {
-    draw(*canvas, i, {kLeftMargin + static_cast<double>(i) * row.pitch, top, kSide, kSide});
   }
   return canvas->finish();
 }

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -45,7 +44,6 @@ struct Series {
   std::string name;  ///< in the legend; empty: not there
   std::vector<Eigen::Vector2d> points;
   Stroke stroke;
-  double dot = 0.0;  ///< radius of a disc at each point [px]; 0: none
 };
 
 /// Stroke of style i (core/series_style.hpp).
@@ -130,21 +128,5 @@ Result<void> write_figure(const std::filesystem::path& path, const Figure& figur
 
 /// Widest drawing area [px] of the panels of a figure of that width.
 double panel_width(int figure_width);
-
-/// Square panels side by side under a common title.
-struct PanelRow {
-  std::string title;
-  std::string subtitle;
-  std::size_t panels = 1;
-  double pitch = 490.0;    ///< from panel to panel [px]
-  double below = 64.0;     ///< for what stands under the panels [px]
-  double right = 0.0;      ///< for what stands right of them [px]
-  double min_width = 0.0;  ///< of the picture [px]
-};
-
-/// Writes a row of panels to a .png, .svg or .pdf file; `draw` draws panel i into its area.
-Result<void> write_panel_row(
-    const std::filesystem::path& path, const PanelRow& row,
-    const std::function<void(Canvas& canvas, std::size_t i, const Rect& area)>& draw);
 
 }  // namespace aims

@@ -24,11 +24,12 @@ std::string power_label(double factor, int decade) {
   return fmt::format("{:g}e{}{}", factor, decade < 0 ? "\u2212" : "", std::abs(decade));
 }
 
-/// Smallest of 1, 2, 5 times a power of ten that is at least `rough`.
+/// Smallest of 1, 2, 5 times a power of ten that is at least 0.8 of `rough`: a tick or two more
+/// beat a step that is twice as wide.
 double nice_step(double rough) {
   const double decade = std::pow(10.0, std::floor(std::log10(rough)));
   for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * decade >= rough * (1.0 - 1e-9)) return factor * decade;
+    if (factor * decade >= 0.8 * rough) return factor * decade;
   }
   return 10.0 * decade;
 }
@@ -39,11 +40,11 @@ int decimals_of(double step) {
 
 }  // namespace
 
-std::vector<Tick> linear_ticks(double min, double max, int max_count) {
+std::vector<Tick> linear_ticks(double min, double max, int most) {
   const double span = max - min;
   if (!std::isfinite(span) || span <= 0.0 || span < 1e-12 * std::max(std::abs(min), std::abs(max)))
     return {};
-  const double step = nice_step(span / std::max(1, max_count - 1));
+  const double step = nice_step(span / std::max(1, most));
   const double slack = 1e-9 * span;
   std::vector<Tick> ticks;
   for (double i = std::ceil((min - slack) / step); i * step <= max + slack; i += 1.0) {
@@ -52,15 +53,13 @@ std::vector<Tick> linear_ticks(double min, double max, int max_count) {
   return ticks;
 }
 
-std::vector<Tick> logarithmic_ticks(double min, double max) {
+std::vector<Tick> logarithmic_ticks(double min, double max, int most) {
   if (!(min > 0.0) || !std::isfinite(max) || max <= min) return {};
-  const int first = static_cast<int>(std::floor(std::log10(min)));
-  const int last = static_cast<int>(std::ceil(std::log10(max)));
-  constexpr int kMostDecades = 8;
-  const int step = (last - first) / kMostDecades + 1;
-  const auto collect = [&](std::initializer_list<double> factors) {
+  const int first = static_cast<int>(std::floor(std::log10(min) + 1e-9));
+  const int last = static_cast<int>(std::ceil(std::log10(max) - 1e-9));
+  const auto collect = [&](std::initializer_list<double> factors, int stride) {
     std::vector<Tick> ticks;
-    for (int decade = first; decade <= last; decade += step) {
+    for (int decade = first; decade <= last; decade += stride) {
       for (const double factor : factors) {
         const double value = factor * std::pow(10.0, decade);
         if (value < min * (1.0 - 1e-9) || value > max * (1.0 + 1e-9)) continue;
@@ -69,12 +68,15 @@ std::vector<Tick> logarithmic_ticks(double min, double max) {
     }
     return ticks;
   };
-  constexpr std::size_t kLeast = 3;
-  for (const auto factors : {std::initializer_list<double>{1.0}, {1.0, 2.0, 5.0}}) {
-    auto ticks = collect(factors);
-    if (ticks.size() >= kLeast) return ticks;
+  std::vector<Tick> ticks;
+  for (const auto factors : {std::initializer_list<double>{1.0, 2.0, 5.0}, {1.0, 3.0}, {1.0}}) {
+    ticks = collect(factors, 1);
+    if (ticks.size() <= static_cast<std::size_t>(most) + 1) break;
   }
-  return linear_ticks(min, max, 6);  // less than a decade: nearly even there
+  if (ticks.size() > static_cast<std::size_t>(most) + 1) {
+    ticks = collect({1.0}, (last - first + most - 1) / most);
+  }
+  return ticks.size() > 1 ? ticks : linear_ticks(min, max, std::max(most, 4));
 }
 
 }  // namespace aims

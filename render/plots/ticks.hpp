@@ -12,13 +12,14 @@ struct Tick {
   std::string label;
 };
 
-/// At most `max_count` (>= 2) ticks at 1, 2 or 5 times a power of ten inside [min, max]; empty
-/// when the interval is empty or not finite.
-std::vector<Tick> linear_ticks(double min, double max, int max_count);
+/// About `most` ticks at 1, 2 or 5 times a power of ten inside [min, max]; empty when the interval
+/// is empty or not finite. Pages have the same rule (render/page/web/src/charts/axis.ts);
+/// tests/render/plots/ticks.txt holds both.
+std::vector<Tick> linear_ticks(double min, double max, int most);
 
-/// Ticks at powers of ten inside [min, max], with 2 and 5 in between when there are fewer than
-/// three, and evenly spaced ones when even those are fewer; empty when the interval is empty, not
-/// finite or not positive.
-std::vector<Tick> logarithmic_ticks(double min, double max);
+/// The finest of 1-2-5, 1-3 and 1 per decade that gives at most one more than `most` (>= 1) ticks,
+/// else every so many decades; evenly spaced ones in less than a decade; empty when the interval is
+/// empty, not finite or not positive.
+std::vector<Tick> logarithmic_ticks(double min, double max, int most);
 
 }  // namespace aims

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
 #include "render/plots/scene_plan.hpp"
 #include "render/plots/thinned_line.hpp"
@@ -25,19 +27,44 @@ std::vector<std::string> labels(const std::vector<Tick>& ticks) {
   return result;
 }
 
-TEST(Ticks, StandAtRoundNumbers) {
-  EXPECT_EQ(labels(linear_ticks(-2.3, 83.1, 10)),
+TEST(Ticks, StandWhereThoseOfPagesDo) {
+  std::ifstream file(AIMS_TICKS);
+  std::string line;
+  int cases = 0;
+  while (std::getline(file, line)) {
+    if (line.starts_with('#')) continue;
+    std::istringstream words(line);
+    std::string kind;
+    double min = 0.0, max = 0.0;
+    int most = 0;
+    words >> kind >> min >> max >> most;
+    const auto ticks =
+        kind == "log" ? logarithmic_ticks(min, max, most) : linear_ticks(min, max, most);
+    std::size_t i = 0;
+    for (double value = 0.0; words >> value; ++i) {
+      ASSERT_LT(i, ticks.size()) << line;
+      const double scale = kind == "log" ? value : max - min;
+      EXPECT_NEAR(ticks[i].value, value, 1e-6 * scale) << line;
+    }
+    EXPECT_EQ(i, ticks.size()) << line;
+    ++cases;
+  }
+  EXPECT_GE(cases, 16);
+}
+
+TEST(Ticks, HaveLabelsOfTheSameDecimals) {
+  EXPECT_EQ(labels(linear_ticks(-2.3, 83.1, 9)),
             (std::vector<std::string>{"0", "10", "20", "30", "40", "50", "60", "70", "80"}));
-  EXPECT_EQ(labels(linear_ticks(-0.11, 0.12, 6)),
+  EXPECT_EQ(labels(linear_ticks(-0.11, 0.12, 5)),
             (std::vector<std::string>{"\u22120.10", "\u22120.05", "0.00", "0.05", "0.10"}));
 }
 
-TEST(Ticks, StayInsideTheIntervalAndBelowTheCount) {
+TEST(Ticks, StayInsideTheIntervalAndNearTheCount) {
   for (const double min : {-1234.5, -0.003, 0.0, 7.0, 1e6}) {
     for (const double span : {1e-3, 0.7, 3.0, 99.0, 12345.0}) {
-      for (const int count : {2, 5, 12}) {
-        const auto ticks = linear_ticks(min, min + span, count);
-        EXPECT_LE(ticks.size(), static_cast<std::size_t>(count));
+      for (const int most : {2, 5, 12}) {
+        const auto ticks = linear_ticks(min, min + span, most);
+        EXPECT_LE(static_cast<double>(ticks.size()), most / 0.8 + 1.0);
         for (const Tick& tick : ticks) {
           EXPECT_GE(tick.value, min - 1e-6 * span);
           EXPECT_LE(tick.value, min + span * (1.0 + 1e-6));
@@ -53,29 +80,22 @@ TEST(Ticks, AreAbsentFromAnIntervalThatIsNone) {
   EXPECT_TRUE(linear_ticks(2.0, 1.0, 5).empty());
   EXPECT_TRUE(linear_ticks(nan, 1.0, 5).empty());
   EXPECT_TRUE(linear_ticks(0.0, INFINITY, 5).empty());
-  EXPECT_TRUE(logarithmic_ticks(0.0, 1.0).empty());
-  EXPECT_TRUE(logarithmic_ticks(-1.0, 1.0).empty());
-}
-
-TEST(Ticks, OfALogarithmicAxisStandAtPowersOfTen) {
-  EXPECT_EQ(labels(logarithmic_ticks(0.01, 20.0)),
-            (std::vector<std::string>{"0.01", "0.1", "1", "10"}));
-  EXPECT_EQ(labels(logarithmic_ticks(1.5, 60.0)),
-            (std::vector<std::string>{"2", "5", "10", "20", "50"}));
+  EXPECT_TRUE(logarithmic_ticks(0.0, 1.0, 5).empty());
+  EXPECT_TRUE(logarithmic_ticks(-1.0, 1.0, 5).empty());
 }
 
 TEST(Ticks, OfManyDecadesAreFewAndShort) {
-  EXPECT_EQ(labels(logarithmic_ticks(1e-10, 100.0)),
+  EXPECT_EQ(labels(logarithmic_ticks(1e-10, 100.0, 7)),
             (std::vector<std::string>{"1e\u221210", "1e\u22128", "1e\u22126", "0.0001", "0.01", "1",
                                       "100"}));
 }
 
 TEST(Ticks, OfALogarithmicAxisOfLessThanADecadeAreSeveral) {
-  EXPECT_EQ(labels(logarithmic_ticks(0.9, 1.32)),
+  EXPECT_EQ(labels(logarithmic_ticks(0.9, 1.32, 5)),
             (std::vector<std::string>{"0.9", "1.0", "1.1", "1.2", "1.3"}));
   for (const double min : {0.011, 0.3, 1.9, 2.1, 7.0, 640.0}) {
     for (const double factor : {1.02, 1.2, 1.44, 2.0, 4.0, 9.0, 40.0}) {
-      const auto ticks = logarithmic_ticks(min, factor * min);
+      const auto ticks = logarithmic_ticks(min, factor * min, 5);
       EXPECT_GE(ticks.size(), 2U) << min << " " << factor;
       for (const Tick& tick : ticks) {
         EXPECT_GE(tick.value, min * (1.0 - 1e-6));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where the ticks of charts stand, without a browser.
 import assert from "node:assert/strict";
-import { mkdtemp, rm } from "node:fs/promises";
+import { mkdtemp, readFile, rm } from "node:fs/promises";
 import { createRequire } from "node:module";
 import os from "node:os";
 import path from "node:path";
@@ -23,6 +23,16 @@ before(async () => {
 after(() => rm(folder, { recursive: true }));
 
 const labels = (ends, log, most) => axis(ends, log, most).ticks.map(({ label }) => label);
+
+test("ticks stand where those of pictures do", async () => {
+  const table = await readFile(path.join(here, "../../../../tests/render/plots/ticks.txt"), "utf8");
+  const cases = table.split("\n").filter((line) => line && !line.startsWith("#")).map((line) => line.split(" "));
+  assert.ok(cases.length >= 16);
+  for (const [kind, low, high, most, ...values] of cases) {
+    const { ticks } = axis([Number(low), Number(high)], kind === "log", Number(most));
+    assert.deepEqual(ticks.map(({ value }) => Number(value.toPrecision(12))), values.map(Number), `${kind} ${low} to ${high}`);
+  }
+});
 
 test("ticks of a logarithmic axis spread over all of it, as dense as they fit", () => {
   assert.deepEqual(labels([0.03, 1.3], true, 3), ["0.03", "0.1", "0.3", "1"]);

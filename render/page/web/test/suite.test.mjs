@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFile, writeFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
 import { keepPicture, needlessScrolls, overflows, stage, whySkipped } from "./made_up.mjs";
-import { comparison, detectors, paper, kHostile, suite } from "./suite_fixtures.mjs";
+import { comparison, consistency, detectors, paper, kHostile, suite } from "./suite_fixtures.mjs";
 
 const skip = whySkipped();
 let pages;
@@ -173,6 +173,22 @@ test("ROC curves come with the areas under them", { skip }, async () => {
   assert.deepEqual(troubles, []);
 });
 
+test("consistency has NEES within its bounds, root mean squares and one run over time", { skip }, async () => {
+  const { page, troubles } = await pages.show({ ...suite(), consistency: consistency() });
+  const charts = page.locator("#consistency figure.chart");
+  assert.equal(await charts.count(), 3);
+  assert.match(await page.locator('#consistency tr[data-row="severity_1/a"]').innerText(), /3\s+1\.10\s*0\.600 to 1\.70\s+95\.0 %/);
+  assert.equal(await charts.nth(0).locator("g.band > path").count(), 1);
+  assert.equal(await charts.nth(0).locator("g.line > path").count(), 1, "bounds have no line");
+  assert.equal(await charts.nth(1).locator("g.line > path").count(), 4);
+  await charts.nth(2).locator("svg[role=img]").focus();
+  await page.keyboard.press("ArrowRight");
+  assert.match(await charts.nth(2).locator(".readout").innerText(), /^size of the error, seed 7: error along the weak axis \[m\] 0\.0100+ at/);
+  await page.locator("#consistency").getByLabel("Over time").selectOption("1");
+  assert.equal(await charts.nth(1).locator("g.line > path").count(), 3, "no stated deviation");
+  assert.deepEqual(troubles, []);
+});
+
 test("the paper's figures stand beside ours", { skip }, async () => {
   const { page, troubles } = await pages.show({ ...suite(), paper: paper() });
   const row = page.locator('#paper tr[data-row="loam"]');
@@ -244,7 +260,7 @@ test("on a phone a matrix of four estimators needs no scrolling", { skip }, asyn
 
 test("hostile names stay names", { skip }, async () => {
   const names = [kHostile, "__proto__", "constructor", "x".repeat(300)];
-  const data = { ...suite({ first: kHostile, names }), roc: detectors(kHostile), paper: paper(kHostile, []), compare: comparison(kHostile), title: kHostile, notes: [kHostile] };
+  const data = { ...suite({ first: kHostile, names }), roc: detectors(kHostile), consistency: consistency(kHostile), paper: paper(kHostile, []), compare: comparison(kHostile), title: kHostile, notes: [kHostile] };
   data.suite.families[0].name = kHostile;
   const { page, troubles, ready } = await pages.show(data, { width: 390 });
   assert.equal(ready, "true");
@@ -276,7 +292,7 @@ test("an empty suite, one scenario and values that are none give a page", { skip
 
 test("it fits 1280 and 390 pixels, light and dark", { skip }, async () => {
   for (const [width, dark] of [[1280, false], [1280, true], [390, false], [390, true]]) {
-    const { page, troubles, context } = await pages.show({ ...suite(), roc: detectors(), paper: paper(), compare: comparison() }, { width, dark });
+    const { page, troubles, context } = await pages.show({ ...suite(), roc: detectors(), consistency: consistency(), paper: paper(), compare: comparison() }, { width, dark });
     assert.equal(await overflows(page), false, `${width}`);
     assert.deepEqual(await needlessScrolls(page), []);
     await keepPicture(page, `suite-${width}-${dark ? "dark" : "light"}`);

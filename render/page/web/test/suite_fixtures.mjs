@@ -56,6 +56,22 @@ export function suite({ first = "a", names = ["severity_1", "severity_2", "sever
 }
 
 /** Two indices at two levels, one of them without a curve. */
+/** A consistency study of two estimators; the second states no covariance. */
+export function consistency(name = "a") {
+  const t = Float32Array.from({ length: 20 }, (_, i) => i + 1);
+  const flat = (value) => t.map(() => value);
+  const one = (estimator, sigma) => ({
+    scenario: "severity_1", estimator, runs: 3, inside_fraction: 0.95, above_fraction: 0, mean_nees: 1.1, mean_nees_interval: [0.6, 1.7],
+    two_sigma: { fraction: 0.96 }, error_rms_m: 0.02, efficiency: 0.5,
+    series: {
+      t_s: t, nees: flat(sigma ? 1.1 : NaN), nees_low: flat(sigma ? 0.07 : NaN), nees_high: flat(sigma ? 3.1 : NaN),
+      error_rms_m: t.map((each) => 0.001 * each), sigma_rms_m: flat(sigma), bound_rms_m: flat(0.001), leg_bound_rms_m: flat(0.1),
+    },
+    example: { seed: 7, series: { t_s: t, error_m: t.map((each) => (each % 2 ? -0.01 : 0.01)), two_sigma_m: flat(2 * sigma) } },
+  });
+  return { schema: "aims.consistency/2", cases: [one(name, 0.01), one("leg", NaN)] };
+}
+
 export function detectors(name = "D") {
   const curve = new Float32Array([0, 0, 0, 0.4, 0.2, 0.7, 1, 1]);
   const entry = (index, level, auc) => ({

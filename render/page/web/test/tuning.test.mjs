@@ -90,6 +90,20 @@ test("the map has a cell per pair of values and can be turned", { skip }, async 
   assert.match(await page.locator("#map .readout").innerText(), /objective: ate_m \[m\] 0\.400 at degeneracy\.kappa 1\.00, degeneracy\.eta 6\.00/);
 });
 
+test("maps and points: each family has its map, every point its objective", { skip }, async () => {
+  const data = tuning();
+  const [first] = data.estimators[0].analyses[0].maps;
+  data.estimators[0].analyses[0].maps.push({ ...first, family: "garage", measured: { ...first.measured, value: first.measured.value.map(() => 0.25) } });
+  const { page, troubles } = await pages.show(data);
+  await page.locator("#map").getByLabel("Scenarios").selectOption("garage");
+  assert.deepEqual(new Set(await page.locator("#map g.number text").allTextContents()), new Set(["0.250"]));
+  await page.locator("#curves").getByLabel("Show").selectOption("points");
+  const charts = page.locator("#curves figure.chart");
+  assert.equal(await charts.nth(0).locator('g.marks[aria-description="points"] > circle').count(), 12);
+  assert.equal(await charts.nth(0).locator('g.marks[aria-description="best point"] > path').count(), 1);
+  assert.deepEqual(troubles, []);
+});
+
 test("the points sort, the least objective first and in bold, which is the best point", { skip }, async () => {
   const { page } = await pages.show(tuning());
   const rows = page.locator("#points tbody tr");
