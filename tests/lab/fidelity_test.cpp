@@ -24,8 +24,8 @@ Scenario short_scenario() {
 }
 
 TEST(Fidelity, FindsTheConfiguredErrors) {
-  const auto fidelity =
-      fidelity_study(short_scenario(), 3, 20.0, [](std::string_view) { return true; });
+  const auto fidelity = fidelity_study(short_scenario(), short_scenario(), 3, 20.0,
+                                       [](std::string_view) { return true; });
   ASSERT_TRUE(fidelity) << fidelity.error().message;
   for (const ResidualBin& each : fidelity->ranges) {
     if (each.returns < 1000 || each.incidence_end_deg > 75.0) continue;
@@ -50,8 +50,8 @@ TEST(Fidelity, FindsTheConfiguredErrors) {
 
 TEST(Fidelity, StopsWhenTheObserverReturnsFalse) {
   int calls = 0;
-  const auto fidelity =
-      fidelity_study(short_scenario(), 3, 20.0, [&](std::string_view) { return ++calls < 3; });
+  const auto fidelity = fidelity_study(short_scenario(), short_scenario(), 3, 20.0,
+                                       [&](std::string_view) { return ++calls < 3; });
   EXPECT_FALSE(fidelity);
   EXPECT_EQ(calls, 3);
 }
