@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <variant>
 
 #include "lab/fidelity/allan_deviation.hpp"
@@ -22,11 +23,6 @@ constexpr Duration kEdge = 20 * kMillisecond;   ///< of the leg odometry about a
 constexpr Duration kRunUp = 2 * kSecond;        ///< from setting off until the trot is steady
 constexpr Duration kTrotLength = 16 * kSecond;  ///< as the real robot's recording
 constexpr Duration kSettling = 500 * kMillisecond;  ///< before the standing robot is looked at
-
-/// Gait of the real robot of the stance profile; a duty factor that gives its length of stance.
-constexpr double kProfilePeriod = 0.502;  ///< [s]
-constexpr double kProfileDuty = 0.52;     ///< [-]
-constexpr double kProfileSpeed = 0.93;    ///< [m/s]
 
 /// What a simulated walk leaves for the study.
 struct Walk {
@@ -214,15 +210,15 @@ Result<void> add_legs(const SimulationConfig& fast, const Task& task, Fidelity& 
   return {};
 }
 
-/// Fills in the profile of a steady walk with the gait of the real robot.
-Result<void> add_stance(const SimulationConfig& fast, const Task& task, Fidelity& fidelity) {
-  SimulationConfig config = without_lidar(fast);
+}  // namespace
+
+Result<std::vector<StanceBin>> stance_study(const Scenario& walk_of_go1, std::uint64_t seed,
+                                            const FidelityObserver& observer) {
+  SimulationConfig config = without_lidar(with_fast_imu(walk_of_go1));
   config.leg_odometry.rate = kStanceProfileRate;
-  config.robot.gait.period = kProfilePeriod;
-  config.robot.gait.duty_factor = kProfileDuty;
-  config.route.speed = kProfileSpeed;
-  auto walk = simulated(config, task, "stance profile");
+  auto walk = simulated(config, {seed, observer}, "stance profile");
   if (!walk) return tl::unexpected(walk.error());
+  if (walk->truth.walk.end == WalkEnd::kFell) return failure("the robot fell on its walk");
   const auto& times = walk->truth.waypoint_times;
   if (times.size() < 2) return failure("the walk ended before its second waypoint");
   std::erase_if(walk->legs, [&](const LegOdometrySample& each) {
@@ -230,13 +226,11 @@ Result<void> add_stance(const SimulationConfig& fast, const Task& task, Fidelity
   });
   const auto profile = stance_profile(foot_readings(walk->truth, walk->legs, config.robot.legs));
   if (!profile) return failure("route: expected two strides of trot before the second waypoint");
-  fidelity.stance = *profile;
-  return {};
+  return *profile;
 }
 
-}  // namespace
-
-Result<Fidelity> fidelity_study(const Scenario& scenario, std::uint64_t seed, double standing_time,
+Result<Fidelity> fidelity_study(const Scenario& scenario, const Scenario& walk_of_go1,
+                                std::uint64_t seed, double standing_time,
                                 const FidelityObserver& observer) {
   Fidelity fidelity;
   fidelity.scenario = scenario.name;
@@ -249,7 +243,9 @@ Result<Fidelity> fidelity_study(const Scenario& scenario, std::uint64_t seed, do
   if (auto ok = add_imu(*walk, fidelity); !ok) return tl::unexpected(ok.error());
   fidelity.ranges = residual_bins(residuals_of(*walk, RayCaster(build_scene(config.scene, seed))));
   if (auto ok = add_legs(config, task, fidelity); !ok) return tl::unexpected(ok.error());
-  if (auto ok = add_stance(config, task, fidelity); !ok) return tl::unexpected(ok.error());
+  auto stance = stance_study(walk_of_go1, seed, observer);
+  if (!stance) return tl::unexpected(stance.error());
+  fidelity.stance = std::move(*stance);
   if (auto ok = add_allan(config, task, standing_time, fidelity); !ok) {
     return tl::unexpected(ok.error());
   }

@@ -49,11 +49,17 @@ struct Fidelity {
 /// Receives what is being done, after each simulated second; returns false to stop the study.
 using FidelityObserver = std::function<bool(std::string_view step)>;
 
+/// Profile of the scenario's walk to its second waypoint, whose gait is to be that of the real
+/// robot of the profile. Errors as those of `fidelity_study`.
+Result<std::vector<StanceBin>> stance_study(const Scenario& walk_of_go1, std::uint64_t seed,
+                                            const FidelityObserver& observer);
+
 /// Simulates the scenario's route with its sensors on perfect links, once for IMU and LiDAR, once
-/// standing for `standing_time` [s], once with the gait of the real robot of the stance profile,
-/// and once per foot model and contact threshold of the leg odometry. Error for a simulation that
-/// cannot start or that falls, and for a study that the observer stopped.
-Result<Fidelity> fidelity_study(const Scenario& scenario, std::uint64_t seed, double standing_time,
+/// standing for `standing_time` [s], and once per foot model and contact threshold of the leg
+/// odometry; the stance profile is that of `walk_of_go1`. Error for a simulation that cannot start
+/// or that falls, and for a study that the observer stopped.
+Result<Fidelity> fidelity_study(const Scenario& scenario, const Scenario& walk_of_go1,
+                                std::uint64_t seed, double standing_time,
                                 const FidelityObserver& observer);
 
 TextTable allan_table(const std::vector<StandingDeviation>& allan);

@@ -19,6 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFidelityName = "fidelity";
+constexpr const char* kWalk = "fidelity_walk";
+constexpr const char* kWalkOfGo1 = "fidelity_go1_walk";  ///< for the stance profile
 constexpr double kStandingTime = 300.0;  ///< of the Allan deviation [s]
 
 void print_fidelity(const Fidelity& fidelity) {
@@ -44,17 +46,21 @@ FidelityObserver observer_of(bool quiet) {
 
 int fidelity_command(const SharedOptions& given) {
   SharedOptions shared = given;
-  if (shared.scenario.empty()) shared.scenario = "fidelity_walk";
+  if (shared.scenario.empty()) shared.scenario = kWalk;
   const auto scenario = scenario_of(shared);
   if (!scenario) return bad_input(kFidelityName, scenario.error());
+  shared.scenario = kWalkOfGo1;
+  const auto walk_of_go1 = scenario_of(shared);
+  if (!walk_of_go1) return bad_input(kFidelityName, walk_of_go1.error());
   const auto seed = seed_of(shared, *scenario);
   if (!seed) return bad_input(kFidelityName, seed.error());
   const fs::path out = shared.out.empty() ? fs::path("out/fidelity") : fs::path(shared.out);
   auto folder = OutputFolder::create(out, shared.overwrite);
   if (!folder) return bad_input(kFidelityName, folder.error());
   watch_interrupt();
-  const auto fidelity = fidelity_study(scenario_of_seed(*scenario, *seed), *seed, kStandingTime,
-                                       observer_of(shared.quiet));
+  const auto fidelity =
+      fidelity_study(scenario_of_seed(*scenario, *seed), *walk_of_go1, *seed, kStandingTime,
+                     observer_of(shared.quiet));
   if (interrupted()) return interrupted_code();
   if (!fidelity) return bad_input(kFidelityName, located(*scenario, fidelity.error()));
   auto written = write_fidelity(*fidelity, folder->path());
@@ -79,7 +85,7 @@ void declare_fidelity(Command command, const fs::path& scenarios) {
   add_overwrite(command, *shared);
   add_quiet(command, *shared);
   command.footer(
-      "Without a scenario: fidelity_walk.\n"
+      "Without a scenario: fidelity_walk. The stance is that of fidelity_go1_walk.\n"
       "Examples:\n"
       "  aims_lab fidelity\n"
       "  aims_lab fidelity --seeds 2 --set sensors=ideal --out out/fidelity-ideal");

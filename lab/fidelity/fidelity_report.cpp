@@ -59,9 +59,8 @@ std::string report_of(const Fidelity& fidelity) {
       "## Allan deviation of the standing IMU\n\nRoot mean square over the axes.\n\n{}\n"
       "## LiDAR\n\nMeasured range minus the range to the true surface.\n\n{}\n"
       "## Leg odometry\n\nBelow zero: reads short. Heading: change of its error.\n\n{}\n"
-      "## Stance\n\nReal: a Unitree Go1 under motion capture; the simulated robot has its speed "
-      "and "
-      "period.\n\n{}\n{}",
+      "## Stance\n\nReal: a Unitree Go1 under motion capture; the simulated robot has its "
+      "gait.\n\n{}\n{}",
       fidelity.scenario, fidelity.seed, to_markdown(imu_statistics_table(fidelity.trot)),
       to_markdown(imu_statistics_table(fidelity.standing)),
       to_markdown(allan_table(fidelity.allan)), to_markdown(range_table(fidelity.ranges)),

@@ -17,10 +17,6 @@ constexpr double kHeldTolerance = 0.02;      ///< of the feet about the place he
 constexpr double kVelocityIntegralLimit = 0.25;  ///< [m/s]
 constexpr double kYawIntegralLimit = 0.4;        ///< [rad/s]
 
-/// Minimum-jerk blend from 0 to 1 and its derivative.
-double blend(double s) { return s * s * s * (10.0 + s * (-15.0 + 6.0 * s)); }
-double blend_rate(double s) { return 30.0 * s * s * (1.0 - s) * (1.0 - s); }
-
 double toward(double value, double goal, double step) {
   return value + std::clamp(goal - value, -step, step);
 }
@@ -210,24 +206,16 @@ Eigen::Vector3d GaitController::touchdown(int leg, const View& now) const {
 Eigen::Vector3d GaitController::swing_torques(int leg, const RobotState& state,
                                               const View& now) const {
   const double s = std::clamp(swing_progress(leg), 0.0, 1.0);
-  const double swing_time = (1.0 - config_.duty_factor) * config_.period;
-  const Eigen::Vector3d& from = liftoff_[leg];
-  const Eigen::Vector3d to = touchdown(leg, now);
-  Eigen::Vector3d goal = from + blend(s) * (to - from);
-  Eigen::Vector3d goal_velocity = blend_rate(s) / swing_time * (to - from);
-  // Height: up to the apex in the first half, down in the second.
-  const double apex = ground_ + body_.legs.foot_radius + config_.swing_height;
-  const bool rising = s < 0.5;
-  const double half = rising ? 2.0 * s : 2.0 * s - 1.0;
-  const double start = rising ? from.z() : apex;
-  const double span = (rising ? apex : to.z()) - start;
-  goal.z() = start + blend(half) * span;
-  goal_velocity.z() = 2.0 * blend_rate(half) / swing_time * span;
+  const Swing swing = {.from = liftoff_[leg],
+                       .to = touchdown(leg, now),
+                       .apex = ground_ + body_.legs.foot_radius + config_.swing_height,
+                       .time = (1.0 - config_.duty_factor) * config_.period};
+  const SwingPoint goal = swing_point(config_.swing, swing, s);
 
   const Eigen::Matrix3d R = now.R_world_base.transpose();
-  const Eigen::Vector3d in_base = R * (goal - now.position);
+  const Eigen::Vector3d in_base = R * (goal.position - now.position);
   const Eigen::Vector3d rate_in_base =
-      R * (goal_velocity - now.velocity) - state.angular_velocity.cross(in_base);
+      R * (goal.velocity - now.velocity) - state.angular_velocity.cross(in_base);
   const Eigen::Vector3d q = joints_of(state.q, leg);
   const Eigen::Matrix3d J = foot_jacobian(leg, q, body_.legs);
   const Eigen::Matrix3d damped = J.transpose() * J + 1e-4 * Eigen::Matrix3d::Identity();

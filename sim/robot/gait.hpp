@@ -6,6 +6,7 @@
 
 #include "core/config.hpp"
 #include "sim/robot/stance_forces.hpp"
+#include "sim/robot/swing_path.hpp"
 #include "sim/robot/trunk_motion.hpp"
 #include "sim/robot/world.hpp"
 
@@ -30,6 +31,7 @@ struct GaitConfig {
   double swing_stiffness = 80.0;   ///< of a joint while its foot swings [N m/rad]
   double swing_damping = 2.0;      ///< of the same [N m s/rad]
   double contact_load = 15.0;      ///< of a swinging foot, above which it has touched down [N]
+  SwingPathConfig swing;
   StanceHoldConfig hold;
   TrunkMotionConfig trunk;
   StanceForceConfig forces;

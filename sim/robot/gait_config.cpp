@@ -65,6 +65,7 @@ void describe(Fields& f, GaitConfig& c) {
            {.unit = "N",
             .range = positive_up_to(1e4),
             .meaning = "Load of a swinging foot above which it has touched down."});
+  f.group("swing", c.swing);
   f.group("hold", c.hold);
   f.group("trunk", c.trunk);
   f.group("forces", c.forces);

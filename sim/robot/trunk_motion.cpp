@@ -29,7 +29,7 @@ TrunkReference trunk_reference(const TrunkMotionConfig& config, double phase, do
                                double period) {
   const double angle = 2.0 * std::numbers::pi * (phase - 0.5 * duty_factor);
   const double speed = 2.0 * std::numbers::pi / period;
-  const Oscillation bounce(-config.bounce, 2.0 * angle, 2.0 * speed);
+  const Oscillation bounce(config.vault - config.bounce, 2.0 * angle, 2.0 * speed);
   const Oscillation roll(config.roll, angle - 0.5 * std::numbers::pi, speed);
   const Oscillation pitch(config.pitch, 2.0 * angle + kPitchLead, 2.0 * speed);
   TrunkReference reference;
@@ -54,6 +54,11 @@ void describe(Fields& f, TrunkMotionConfig& c) {
             .range = in_range(0.0, 0.02),
             .meaning = "Amplitude of the trunk's height, twice per stride, lowest in mid-stance.",
             .source = kSource});
+  f.number("vault", c.vault,
+           {.unit = "m",
+            .range = in_range(0.0, 0.02),
+            .meaning = "Amplitude of the trunk's height over its standing legs, twice per stride, "
+                       "highest in mid-stance."});
   f.number("roll", c.roll,
            {.unit = "rad",
             .range = in_range(0.0, 0.2),

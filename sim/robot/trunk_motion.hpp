@@ -7,10 +7,12 @@
 
 namespace aims {
 
-/// Periodic motion of the trunk within a stride, as a trotting robot's: it sinks in mid-stance,
-/// rolls once and pitches twice per stride. While the robot stands there is none.
+/// Periodic motion of the trunk within a stride, as a trotting robot's: it sinks in mid-stance, or
+/// vaults over its standing legs, rolls once and pitches twice per stride. While the robot stands
+/// there is none.
 struct TrunkMotionConfig {
   double bounce = 0.0015;  ///< amplitude of the height [m]
+  double vault = 0.0;      ///< amplitude of the height, highest in mid-stance [m]
   double roll = 0.04;      ///< amplitude [rad]
   double pitch = 0.028;    ///< amplitude [rad]
 };
@@ -28,7 +30,8 @@ struct TrunkReference {
 
 /// The reference at `phase` of a stride [0, 1), whose mid-stances are at half of `duty_factor` and
 /// half a stride later. The trunk is lowest, and the force on the feet largest, in mid-stance,
-/// where the roll passes zero; the pitch leads mid-stance.
+/// where the roll passes zero; the pitch leads mid-stance. A vault larger than the bounce turns the
+/// first two around.
 TrunkReference trunk_reference(const TrunkMotionConfig& config, double phase, double duty_factor,
                                double period);
 

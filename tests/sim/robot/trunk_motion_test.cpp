@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/sim/robot/walking.hpp"
@@ -39,6 +40,47 @@ TEST(TrunkMotion, IsLowestAndPushesHardestInTheMiddleOfEachStance) {
   }
   EXPECT_GT(at(0.5 * kDuty).rate.x() * -at(0.5 * kDuty + 0.5).rate.x(), 0.0)
       << "rolls once per stride";
+}
+
+TEST(TrunkMotion, AVaultIsHighestInTheMiddleOfEachStance) {
+  TrunkMotionConfig config;
+  config.bounce = 0.0;
+  config.vault = 0.006;
+  const double speed = 4.0 * M_PI / kPeriod;
+  for (const double phase : {0.5 * kDuty, 0.5 * kDuty + 0.5}) {
+    const TrunkReference highest = trunk_reference(config, phase, kDuty, kPeriod);
+    EXPECT_NEAR(highest.height, 0.006, 1e-12);
+    EXPECT_NEAR(highest.acceleration, -0.006 * speed * speed, 1e-9) << "the feet carry less";
+    EXPECT_NEAR(trunk_reference(config, phase + 0.25, kDuty, kPeriod).height, -0.006, 1e-12);
+  }
+}
+
+/// Range of the trunk's height over a steady trot [m].
+double height_range(const GaitConfig& gait) {
+  RouteConfig route;
+  route.points = {{"a", 0.0, 0.0}, {"b", 4.0, 0.0}};
+  route.stand_before = 0.5;
+  const auto walk = testing::walk(testing::corridor_world(4.0, 0.7, 0.0), route, gait);
+  EXPECT_FALSE(walk.fell);
+  double lowest = 1.0;
+  double highest = 0.0;
+  for (const RobotState& state : walk.states) {
+    if (state.stamp < 3 * kSecond || state.stamp > 5 * kSecond) continue;
+    lowest = std::min(lowest, state.T_world_base.translation.z());
+    highest = std::max(highest, state.T_world_base.translation.z());
+  }
+  return highest - lowest;
+}
+
+TEST(TrunkMotion, TheRobotVaultsOverItsLegs) {
+  GaitConfig level;
+  level.trunk.bounce = 0.0;
+  GaitConfig vaulting = level;
+  vaulting.trunk.vault = 0.006;
+  const double with = height_range(vaulting);
+  EXPECT_LT(height_range(level), 0.005);
+  EXPECT_GT(with, 0.009);
+  EXPECT_LT(with, 0.018);
 }
 
 TEST(TrunkMotion, IsNoneWhileTheRobotStands) {
