@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/text.hpp"
 #include "live/dds/dds_program.hpp"
 #include "live/dds/dds_transport.hpp"
 #include "live/dds/discovery.hpp"
@@ -60,6 +61,16 @@ int run(const PlayArguments& arguments) {
              arguments.dds.domain, outcome->complete ? "" : ", interrupted");
   if (outcome->blocked > 0) {
     fmt::print("warning: {} messages were not sent: a subscriber is too slow\n", outcome->blocked);
+  }
+  if (outcome->unsendable > 0) {
+    fmt::print(
+        "warning: {} messages were not sent: DDS holds times from 1970 to 2038, the first was "
+        "recorded at {} s\n",
+        outcome->unsendable, stamp_text(outcome->unsendable_time));
+  }
+  if (outcome->unanswered > 0) {
+    fmt::print("warning: {} topics have a subscriber that did not acknowledge the last messages\n",
+               outcome->unanswered);
   }
   return kLiveOk;
 }

@@ -50,8 +50,8 @@ class DdsTransport final : public Transport {
                   std::size_t size);
   /// Subscribers of a topic that this node publishes.
   std::size_t subscribers(std::size_t publisher) const;
-  /// Waits until all subscribers have all messages, or `seconds`.
-  void wait_for_subscribers(double seconds) const;
+  /// Waits until all subscribers have all messages, or `seconds`; topics of which one has not.
+  std::size_t wait_for_subscribers(double seconds) const;
 
  private:
   struct Impl;
