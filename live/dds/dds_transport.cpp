@@ -36,13 +36,15 @@ void request_end(int) { end_requested = true; }
 
 /// Asks the kernel for a receive buffer that holds a cloud; by default CycloneDDS asks for 1 MB,
 /// and what does not fit is sent again, late. A writer keeps what a subscriber that was killed does
-/// not acknowledge until that is noticed, after 10 s; with the 500 kB of the default it would keep
-/// all others waiting meanwhile. What CYCLONEDDS_URI says takes precedence.
-void ask_for_buffers() {
+/// not acknowledge until that is noticed, after 10 s: up to the 500 kB of the default, `in_step`,
+/// then all others wait. What CYCLONEDDS_URI says takes precedence.
+void ask_for_buffers(bool in_step) {
   constexpr const char* kVariable = "CYCLONEDDS_URI";
-  const std::string buffer =
-      "<CycloneDDS><Domain><Internal><SocketReceiveBufferSize max=\"16 MiB\"/>"
-      "<Watermarks><WhcHigh>512 MiB</WhcHigh></Watermarks></Internal></Domain></CycloneDDS>";
+  const std::string buffer = fmt::format(
+      "<CycloneDDS><Domain><Internal><SocketReceiveBufferSize max=\"16 "
+      "MiB\"/>{}</Internal></Domain>"
+      "</CycloneDDS>",
+      in_step ? "" : "<Watermarks><WhcHigh>512 MiB</WhcHigh></Watermarks>");
   const char* set = std::getenv(kVariable);
   const std::string given = set == nullptr ? "" : set;
   if (given.starts_with(buffer)) return;
@@ -247,7 +249,7 @@ DdsTransport::~DdsTransport() {
 
 Result<std::unique_ptr<DdsTransport>> DdsTransport::connect(const DdsOptions& options) {
   auto impl = std::make_unique<Impl>(options);
-  ask_for_buffers();
+  ask_for_buffers(options.in_step);
   impl->participant = dds_create_participant(options.domain, nullptr, nullptr);
   if (impl->participant < 0) {
     return failure(fmt::format("DDS domain {}: {}; see CYCLONEDDS_URI", options.domain,
