@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/stopwatch.hpp"
+#include "live/inbox.hpp"
 #include "recordings/messages/message_values.hpp"
 #include "recordings/topics/recording_topics.hpp"
 
@@ -224,6 +225,7 @@ Result<RecordingReader> open_live_recording(
     Transport& transport, Commands& commands, const RecordingConfig& config,
     const LiveRecordingOptions& options, const SetupCheck& check_setup,
     const std::function<void(const std::string&)>& waiting) {
+  transport.limit_wait(std::max(options.max_wait, Inbox::kMaxWaitLarge));  // while it decides
   Gathering gathering(transport, commands, options.transforms);
   auto reader = wait_to_open(transport, commands, gathering, config, options, check_setup, waiting);
   // What was heard is to tell why it did not start.
