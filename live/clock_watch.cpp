@@ -30,6 +30,8 @@ void ClockWatch::add(const std::string& topic, std::optional<Time> stamp, Time a
   const auto [place, added] = clocks_.try_emplace(topic);
   Clock& clock = place->second;
   clock.seen = arrival;
+  if (added || *stamp != clock.stamp) clock.stays_since = arrival;
+  clock.stamp = *stamp;
   if (added || std::abs(offset - clock.offset) <= kJump) {
     clock.offset = offset;
     clock.jumped_at.reset();
@@ -62,9 +64,14 @@ void ClockWatch::judge() {
 std::vector<std::string> ClockWatch::differing() const {
   std::vector<std::string> found;
   for (const auto& [topic, clock] : clocks_) {
-    if (!present(clock) || !jumped(clock, kLastingAlone)) continue;
-    found.push_back(fmt::format("the clock of {} jumped by {:.1f} s", topic,
-                                to_seconds(clock.jumped_to - clock.offset)));
+    if (!present(clock)) continue;
+    if (clock.seen - clock.stays_since >= kLastingAlone) {
+      found.push_back(
+          fmt::format("the stamps of {} stay at {:.1f} s", topic, to_seconds(clock.stamp)));
+    } else if (jumped(clock, kLastingAlone)) {
+      found.push_back(fmt::format("the clock of {} jumped by {:.1f} s", topic,
+                                  to_seconds(clock.jumped_to - clock.offset)));
+    }
   }
   return found;
 }

@@ -22,7 +22,8 @@ class ClockWatch {
   /// it can.
   const std::string& broken() const { return broken_; }
 
-  /// "the clock of /points jumped by -3600.0 s", of clocks that differ from the others now.
+  /// "the clock of /points jumped by -3600.0 s", of clocks that differ from the others now; "the
+  /// stamps of /points stay at 0.1 s", where messages come and their stamps do not change.
   std::vector<std::string> differing() const;
 
  private:
@@ -31,6 +32,8 @@ class ClockWatch {
     Time seen = 0;                  ///< last arrival
     std::optional<Time> jumped_at;  ///< arrival of the first message of the jump
     Duration jumped_to = 0;         ///< offset since then
+    Time stamp = 0;                 ///< the last one
+    Time stays_since = 0;           ///< arrival of the first message with it
   };
   bool jumped(const Clock& clock, Duration lasting) const;
   bool present(const Clock& clock) const;

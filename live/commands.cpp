@@ -9,8 +9,7 @@
 
 #include "core/text.hpp"
 #include "live/live_session.hpp"
-#include "recordings/messages/message_decoder.hpp"
-#include "recordings/messages/message_types.hpp"
+#include "live/live_source.hpp"
 
 namespace aims {
 namespace {
@@ -23,10 +22,7 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 /// The text of a std_msgs/String; empty for what is none.
 std::string text_of(const LiveMessage& message) {
-  std::string definition = message.connection->definition;
-  MessageFormat format = message.connection->cdr ? kRos2Format : kRos1Format;
-  if (message.connection->cdr) complete_definition("std_msgs/String", definition, format);
-  const auto decoder = MessageDecoder::create("std_msgs/String", definition, format);
+  const auto decoder = decoder_of(*message.connection);
   if (!decoder) return {};
   const auto view = decoder->decode(message.data);
   return view ? std::string(view->text("data").value_or("")) : "";

@@ -38,7 +38,8 @@ LiveEstimate::LiveEstimate(Transport& transport, Publications& publications,
       log_(std::move(log)),
       start_(std::move(start)),
       moved_(start_.T_odom_start.translation.norm() > 0.0 ||
-             start_.T_odom_start.rotation.vec().norm() > 0.0) {}
+             start_.T_odom_start.rotation.vec().norm() > 0.0),
+      read_warnings_(reader.setup().warnings.size()) {}
 
 Result<void> LiveEstimate::run() {
   if (auto ok = log_.save_summary(reader_, estimator_.result(), false); !ok) return ok;
@@ -48,6 +49,7 @@ Result<void> LiveEstimate::run() {
     const auto advanced = reader_.advance(kBatch, deliveries);
     if (!advanced) return tl::unexpected(advanced.error());
     more = *advanced;
+    warn_of_reading();
     for (const Delivery& delivery : deliveries) take(delivery);
     deliveries.clear();
     for (const std::string& problem : transport_.take_problems()) {
@@ -122,6 +124,14 @@ void LiveEstimate::warn_of_motion() {
         "robot stand and send calibrate"});
 }
 
+/// Of what no longer is as it was at the start.
+void LiveEstimate::warn_of_reading() {
+  const auto& warnings = reader_.setup().warnings;
+  for (; read_warnings_ < warnings.size(); ++read_warnings_) {
+    if (start_.concerns(warnings[read_warnings_])) warn(warnings[read_warnings_]);
+  }
+}
+
 /// Adds what the reading knows to the reasons; publishes.
 void LiveEstimate::publish_health(std::vector<HealthRow>& rows) {
   for (HealthRow& row : rows) {
@@ -157,7 +167,9 @@ void LiveEstimate::publish(const HealthRow& row) {
 }
 
 void LiveEstimate::tell_silence(double seconds) {
-  HealthRow row{last_ ? last_->stamp : 0, HealthState::kInvalid, {"no messages"}, NAN};
+  const bool published = transport_.topics().contains(reader_.setup().topics.imu);
+  const char* reason = published ? "no messages, though there are publishers" : "no messages";
+  HealthRow row{last_ ? last_->stamp : 0, HealthState::kInvalid, {reason}, NAN};
   row.stamp += from_seconds(seconds);
   publish(row);
   log({}, std::span(&row, 1));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,6 +25,8 @@ struct LiveStart {
   const ClockWatch* clocks = nullptr;    ///< of its topics
   std::vector<ReadingWarning> warnings;  ///< their reasons are in its health
   bool standing = false;                 ///< the robot should stand: motion is a warning
+  /// Whether a warning found later concerns the estimator.
+  std::function<bool(const ReadingWarning&)> concerns;
 };
 
 /// One estimator on live topics, from its start to its end: it publishes, prints and logs.
@@ -56,6 +59,7 @@ class LiveEstimate {
   void take_rows();
   void log(std::span<const StampedPose> poses, std::span<const HealthRow> health);
   void warn_of_motion();
+  void warn_of_reading();
   void publish_health(std::vector<HealthRow>& rows);
   void publish(const HealthRow& row);
   void publish_points(Time stamp);
@@ -75,6 +79,7 @@ class LiveEstimate {
   std::optional<HealthRow> printed_;
   std::string warning_ = "none";  ///< of the network, the last one
   Time next_map_ = 0;
+  std::size_t read_warnings_ = 0;  ///< of the reader, told
   std::size_t taken_poses_ = 0;
   std::size_t taken_health_ = 0;
   std::size_t poses_ = 0;

@@ -13,6 +13,9 @@
 #include <vector>
 
 #include "core/stopwatch.hpp"
+#include "live/inbox.hpp"
+#include "recordings/messages/message_values.hpp"
+#include "recordings/topics/recording_topics.hpp"
 
 namespace aims {
 namespace {
@@ -38,10 +41,35 @@ bool is_estimated(const std::string& topic, const std::map<std::string, std::str
          topics.contains(topic.substr(0, name) + "odometry_fast");
 }
 
-/// Collects the messages of all topics of the last `kMaxGathered`, and all latched messages.
+/// The frames that a message of /tf_static places; empty: it is none.
+std::string placed_frames(const LiveMessage& message) {
+  std::string frames;
+  if (message.connection->topic != kStaticTransformsTopic) return frames;
+  const auto decoder = decoder_of(*message.connection);
+  if (!decoder) return frames;
+  const auto view = decoder->decode(message.data);
+  if (!view) return frames;
+  for (const FrameTransform& each : transforms_in(*view)) {
+    frames += fmt::format("{} {}\n", each.parent, each.child);
+  }
+  return frames;
+}
+
+/// Keeps a message of /tf_static, instead of the last one of its frames.
+void keep(const LiveMessage& message, LiveTransforms* transforms) {
+  constexpr std::size_t kMost = 1000;
+  if (transforms == nullptr) return;
+  const std::string frames = placed_frames(message);
+  if (frames.empty() || transforms->size() >= kMost) return;
+  transforms->insert_or_assign(frames, message);
+}
+
+/// Collects the messages of all topics of the last `kMaxGathered`, and all latched and fixed ones.
 class Gathering {
  public:
-  Gathering(Transport& transport, Commands& commands) : transport_(transport), commands_(commands) {
+  Gathering(Transport& transport, Commands& commands, LiveTransforms* transforms)
+      : transport_(transport), commands_(commands), transforms_(transforms) {
+    if (transforms != nullptr) before_ = *transforms;
     // To receive latched messages again, where another estimate went before.
     for (const auto& [topic, type] : transport.topics()) {
       if (!is_command(topic)) transport.unsubscribe(topic);
@@ -60,11 +88,20 @@ class Gathering {
     while (timer.seconds() < kPoll) {
       // Time 0: a simulated clock that has not started.
       if (auto message = commands_.wait(kPoll); message && message->arrival > 0) {
+        keep(*message, transforms_);
         messages_->push_back(std::move(*message));
       }
       if (!transport_.running()) return;
     }
     trim();
+  }
+
+  /// Adds the fixed transforms heard before, behind those heard now, which come first.
+  void add_earlier() {
+    for (auto& [frames, message] : std::exchange(before_, {})) {
+      message.arrival = messages_->back().arrival;
+      messages_->push_back(std::move(message));
+    }
   }
 
   Duration span() const {
@@ -83,21 +120,25 @@ class Gathering {
     if (span() <= kMaxGathered) return;
     const Time oldest = messages_->back().arrival - kMaxGathered;
     std::erase_if(*messages_, [&](const LiveMessage& message) {
-      return message.arrival < oldest && !message.connection->latching;
+      return message.arrival < oldest && !message.connection->latching &&
+             message.connection->topic != kStaticTransformsTopic;
     });
   }
 
   Transport& transport_;
   Commands& commands_;
+  LiveTransforms* transforms_;
+  LiveTransforms before_;  ///< heard before this gathering
   std::shared_ptr<LiveMessages> messages_ = std::make_shared<LiveMessages>();
   std::set<std::string> subscribed_;
 };
 
 /// Waits for messages. Clouds may wait no longer than `max_wait` once none is waiting, at the
 /// latest after `kCatchUp`: before, the estimator catches up with what was gathered.
-LiveSource::Wait waiting_for(Transport& transport, Commands& commands, Duration max_wait) {
-  return [&transport, &commands, max_wait, late = true,
-          first = std::optional<Time>()]() mutable -> std::optional<LiveMessage> {
+LiveSource::Wait waiting_for(Transport& transport, Commands& commands,
+                             const LiveRecordingOptions& options) {
+  return [&transport, &commands, max_wait = options.max_wait, kept = options.transforms,
+          late = true, first = std::optional<Time>()]() mutable -> std::optional<LiveMessage> {
     while (transport.running() && !commands.restarts()) {
       auto message = commands.wait(late ? 0.0 : kPoll);
       if (message && !first) first = message->arrival;
@@ -105,7 +146,9 @@ LiveSource::Wait waiting_for(Transport& transport, Commands& commands, Duration 
         transport.limit_wait(max_wait);
         late = false;
       }
-      if (message) return message;
+      if (!message) continue;
+      keep(*message, kept);
+      return message;
     }
     return std::nullopt;
   };
@@ -115,15 +158,17 @@ Result<RecordingReader> try_open(Transport& transport, Commands& commands,
                                  const Gathering& gathering, const RecordingConfig& config,
                                  const LiveRecordingOptions& options,
                                  const SetupCheck& check_setup) {
-  auto wait = waiting_for(transport, commands, options.max_wait);
+  auto wait = waiting_for(transport, commands, options);
   auto source = std::make_unique<LiveSource>(gathering.messages(), wait);
   LiveSource& live = *source;
   auto reader = RecordingReader::open(std::move(source), config);
   if (!reader) return reader;
   if (auto ok = check_setup(reader->setup()); !ok) return tl::unexpected(ok.error());
-  // A record has each topic to its end: the truth too, which the estimate does not read.
+  // A record has each topic to its end: the truth too, which the estimate does not read. The next
+  // estimate needs fixed transforms, which may be sent but once.
   for (const std::string& topic : gathering.subscribed()) {
-    if (!options.observer && !live.selects(topic)) transport.unsubscribe(topic);
+    const bool needed = live.selects(topic) || topic == kStaticTransformsTopic;
+    if (!options.observer && !needed) transport.unsubscribe(topic);
   }
   live.go_live(options.observer, options.clocks);
   return reader;
@@ -151,11 +196,18 @@ Result<RecordingReader> wait_to_open(Transport& transport, Commands& commands, G
           "choose another --node",
           own);
     } else if (gathering.span() >= options.settle) {
+      gathering.add_earlier();
       auto reader = try_open(transport, commands, gathering, config, options, check_setup);
       if (reader) return reader;
       missing = reader.error().message;
     } else if (gathering.span() > 0) {
       missing = fmt::format("{:.1f} s of messages so far", to_seconds(gathering.span()));
+    } else if (transport.cdr() && gathering.messages()->empty() &&
+               !gathering.subscribed().empty()) {
+      missing = fmt::format(
+          "no messages yet, though there are publishers of {} topics: is their clock set? DDS "
+          "drops what is sent from 2038 on",
+          gathering.subscribed().size());
     }
     if (options.patience > 0.0 && since_start.seconds() > options.patience) {
       return failure(fmt::format("timeout after {:g} s: {}", options.patience, missing));
@@ -173,7 +225,8 @@ Result<RecordingReader> open_live_recording(
     Transport& transport, Commands& commands, const RecordingConfig& config,
     const LiveRecordingOptions& options, const SetupCheck& check_setup,
     const std::function<void(const std::string&)>& waiting) {
-  Gathering gathering(transport, commands);
+  transport.limit_wait(std::max(options.max_wait, Inbox::kMaxWaitLarge));  // while it decides
+  Gathering gathering(transport, commands, options.transforms);
   auto reader = wait_to_open(transport, commands, gathering, config, options, check_setup, waiting);
   // What was heard is to tell why it did not start.
   if (!reader && options.observer) LiveSource(gathering.messages(), {}).go_live(options.observer);

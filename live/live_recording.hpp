@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 
 #include "core/error.hpp"
@@ -13,12 +14,16 @@
 
 namespace aims {
 
+/// The last message of /tf_static by the frames that it places.
+using LiveTransforms = std::map<std::string, LiveMessage>;
+
 struct LiveRecordingOptions {
   Duration settle = 3 * kSecond;     ///< gathered before topics, units and extrinsics are decided
   double patience = 0.0;             ///< timeout without the needed topics [s]; 0: none
   Duration max_wait = kSecond / 20;  ///< of a cloud, once the estimator has caught up
   LiveSource::Observer observer;     ///< sees all messages of the gathered topics; none: nobody
   ClockWatch* clocks = nullptr;      ///< once it is broken, reading ends
+  LiveTransforms* transforms = nullptr;  ///< heard before, used where they are not sent again
 };
 
 /// Error unless the setup suffices, naming what is missing.

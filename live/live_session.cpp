@@ -31,15 +31,17 @@ Result<void> check_topics(const LiveConfig& config, const RecordingSetup& setup)
   return check_legs(setup, config.estimator, "live topics");
 }
 
+/// Whether it spoils the estimate; of an estimator whose needs are not known, all do.
+bool concerns(const LiveConfig& config, const ReadingWarning& warning) {
+  const Requirements needs = requirements_of(config.estimator, config.estimators);
+  if (!needs.lidar && !needs.imu && !needs.legs) return true;
+  return warning.concerns(needs.lidar, needs.legs || needs.joints);
+}
+
 /// What spoils the estimate, and a calibration of another robot.
 std::vector<ReadingWarning> warnings_of(const LiveConfig& config, const RecordingSetup& setup) {
   std::vector<ReadingWarning> warnings = setup.warnings;
-  const Requirements needs = requirements_of(config.estimator, config.estimators);
-  if (needs.lidar || needs.imu || needs.legs) {
-    std::erase_if(warnings, [&needs](const ReadingWarning& each) {
-      return !each.concerns(needs.lidar, needs.legs || needs.joints);
-    });
-  }
+  std::erase_if(warnings, [&](const ReadingWarning& each) { return !concerns(config, each); });
   if (!config.calibration) return warnings;
   const auto found = misfits(config.calibration->sensors, sensors_of(setup.rig, {}));
   if (!found.empty()) {
@@ -105,7 +107,8 @@ class Session {
                               .patience = options_.patience,
                               .max_wait = from_seconds(options_.max_wait),
                               .observer = {},
-                              .clocks = &clocks};
+                              .clocks = &clocks,
+                              .transforms = &transforms_};
     LiveEstimate* estimate = nullptr;
     if (!options_.record.empty()) {
       live.observer = [&](const BagMessage& message) { record(message, *recorder, estimate); };
@@ -127,7 +130,8 @@ class Session {
     print_line(
         fmt::format("{} publishes {}", options_.estimator, transport_.resolved("~odometry")));
     LiveEstimate running(transport_, publications_, *reader, **estimator, std::move(*log),
-                         {T_odom_start_, &clocks, warnings, part > 1});
+                         {T_odom_start_, &clocks, warnings, part > 1,
+                          [&](const ReadingWarning& each) { return concerns(config_, each); }});
     estimate = &running;
     if (!recorder->state()) running.warn({kNoRecording, recorder->state().error().message});
     commands_.on_save_map([&] { running.save_map(); });
@@ -175,6 +179,7 @@ class Session {
   LiveConfig config_;
   Commands commands_;
   Publications publications_;
+  LiveTransforms transforms_;
   Pose T_odom_start_;
   StampedPose last_;
 };

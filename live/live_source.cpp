@@ -8,6 +8,13 @@
 
 namespace aims {
 
+Result<MessageDecoder> decoder_of(const LiveConnection& connection) {
+  std::string definition = connection.definition;
+  MessageFormat format = connection.cdr ? kRos2Format : kRos1Format;
+  if (connection.cdr) complete_definition(connection.type, definition, format);
+  return MessageDecoder::create(connection.type, definition, format);
+}
+
 LiveSource::LiveSource(std::shared_ptr<LiveMessages> gathered, Wait wait)
     : gathered_(std::move(gathered)), wait_(std::move(wait)) {
   for (const LiveMessage& message : *gathered_) announce(*message.connection);
@@ -56,8 +63,7 @@ bool LiveSource::goes_on(const LiveMessage& message, const BagConnection& connec
   if (!live_ || clocks_ == nullptr || connection.latching) return true;
   const auto [place, added] = decoders_.try_emplace(&connection);
   if (added) {
-    auto decoder =
-        MessageDecoder::create(connection.type, connection.definition, connection.format);
+    auto decoder = decoder_of(*message.connection);
     if (decoder) place->second = std::move(*decoder);
   }
   std::optional<Time> stamp;

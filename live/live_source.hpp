@@ -21,6 +21,9 @@ namespace aims {
 /// Queued messages, in order of arrival.
 using LiveMessages = std::deque<LiveMessage>;
 
+/// Error for a definition that cannot be parsed.
+Result<MessageDecoder> decoder_of(const LiveConnection& connection);
+
 /// The topics of a running robot as a message source. At first it contains the gathered messages,
 /// which can be read again; once live, it continues with new ones. Messages of topics or types that
 /// were not gathered are skipped.

@@ -342,6 +342,7 @@ Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOpti
   result.bag = options.bag;
   result.with = options.with;
   result.setup = reader->setup();
+  const std::size_t at_start = result.setup.warnings.size();
   result.summary = reader->summary();
   if (auto ok = check_topics(config, result.setup, options.bag.string()); !ok)
     return tl::unexpected(ok.error());
@@ -367,6 +368,8 @@ Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOpti
   result.complete = !end->stopped;
   result.broken = end->error;
   result.counts = reader->counts();
+  const auto found = std::span(reader->setup().warnings).subspan(at_start);
+  result.setup.warnings.insert(result.setup.warnings.end(), found.begin(), found.end());
   result.recorded_s = to_seconds(reader->position());
   estimators->clear();
   warn_in_health(config, result);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/text.hpp"
 #include "live/dds/dds_program.hpp"
 #include "live/dds/dds_transport.hpp"
 #include "live/dds/discovery.hpp"
@@ -46,7 +47,9 @@ int run(const PlayArguments& arguments) {
   std::vector<std::filesystem::path> with(arguments.files.begin() + 1, arguments.files.end());
   const auto recording = open_recording(arguments.files.front(), {.with = std::move(with)});
   if (!recording) return report_bad_input(kProgram, recording.error().message);
-  const auto transport = DdsTransport::connect(arguments.dds);
+  DdsOptions dds = arguments.dds;
+  dds.in_step = arguments.playback.rate > 1.0;  // else it sends as sensors do, which never wait
+  const auto transport = DdsTransport::connect(dds);
   if (!transport) return report_bad_input(kProgram, transport.error().message);
   const auto outcome = play(**recording, **transport, arguments.playback);
   for (const std::string& problem : (*transport)->take_problems()) {
@@ -60,6 +63,16 @@ int run(const PlayArguments& arguments) {
              arguments.dds.domain, outcome->complete ? "" : ", interrupted");
   if (outcome->blocked > 0) {
     fmt::print("warning: {} messages were not sent: a subscriber is too slow\n", outcome->blocked);
+  }
+  if (outcome->unsendable > 0) {
+    fmt::print(
+        "warning: {} messages were not sent: DDS holds times from 1970 to 2038, the first was "
+        "recorded at {} s\n",
+        outcome->unsendable, stamp_text(outcome->unsendable_time));
+  }
+  if (outcome->unanswered > 0) {
+    fmt::print("warning: {} topics have a subscriber that did not acknowledge the last messages\n",
+               outcome->unanswered);
   }
   return kLiveOk;
 }

@@ -18,6 +18,7 @@ struct DdsOptions {
   /// `aims_play`. Else this machine's time of reception.
   bool source_time = false;
   bool keep_all = false;       ///< publishing waits rather than that a subscriber misses anything
+  bool in_step = false;        ///< publishing waits for a subscriber that is 500 kB behind
   double max_blocking = 0.02;  ///< how long publishing waits for slow subscribers [s]
 };
 
@@ -50,8 +51,8 @@ class DdsTransport final : public Transport {
                   std::size_t size);
   /// Subscribers of a topic that this node publishes.
   std::size_t subscribers(std::size_t publisher) const;
-  /// Waits until all subscribers have all messages, or `seconds`.
-  void wait_for_subscribers(double seconds) const;
+  /// Waits until all subscribers have all messages, or `seconds`; topics of which one has not.
+  std::size_t wait_for_subscribers(double seconds) const;
 
  private:
   struct Impl;

@@ -21,14 +21,16 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kPatience = std::chrono::milliseconds(50);  ///< between looks at the network
-constexpr double kDelay = 1.0;         ///< for subscribers to find the topics [s]
-constexpr double kReportPeriod = 5.0;  ///< [s]
-constexpr double kLastWait = 5.0;      ///< for subscribers to take the last messages [s]
+constexpr double kDelay = 1.0;                          ///< for subscribers to find the topics [s]
+constexpr double kReportPeriod = 5.0;                   ///< [s]
+constexpr Time kEndOfTime = (Time{1} << 31) * kSecond;  ///< of DDS, in 2038: it drops what is later
+constexpr double kLastWait = 5.0;  ///< for subscribers to take the last messages [s]
 
 /// Sends each message when it is due.
 class PacedSink final : public MessageSink {
  public:
-  PacedSink(DdsTransport& transport, double rate) : transport_(transport), rate_(rate) {}
+  PacedSink(DdsTransport& transport, double rate, PlaybackOutcome& outcome)
+      : transport_(transport), rate_(rate), outcome_(outcome) {}
 
   Serialization serialization() const override { return Serialization::kCdr; }
 
@@ -46,12 +48,16 @@ class PacedSink final : public MessageSink {
                      std::span<const std::byte> data) override {
     wait_until(record_time);
     if (!transport_.running()) return {};
-    if (!transport_.publish_at(publisher, record_time, data.data(), data.size())) ++blocked_;
+    if (record_time < 0 || record_time >= kEndOfTime) {
+      if (outcome_.unsendable++ == 0) outcome_.unsendable_time = record_time;
+    } else if (!transport_.publish_at(publisher, record_time, data.data(), data.size())) {
+      ++outcome_.blocked;
+    }
     return {};
   }
 
   Result<void> close() override {
-    transport_.wait_for_subscribers(kLastWait);
+    outcome_.unanswered = transport_.wait_for_subscribers(kLastWait);
     return {};
   }
 
@@ -62,8 +68,6 @@ class PacedSink final : public MessageSink {
     }
     return {};
   }
-
-  std::uint64_t blocked() const { return blocked_; }
 
  private:
   void wait_until(Time record_time) {
@@ -80,10 +84,10 @@ class PacedSink final : public MessageSink {
 
   DdsTransport& transport_;
   double rate_;
+  PlaybackOutcome& outcome_;
   std::map<std::pair<std::string, std::string>, std::uint32_t> publishers_;
   std::optional<Time> first_;
   Clock::time_point start_;
-  std::uint64_t blocked_ = 0;
 };
 
 bool wanted(const std::string& topic, const std::vector<std::string>& topics) {
@@ -134,7 +138,7 @@ void wait_to_start(const DdsTransport& transport, const PacedSink& sink,
 Result<PlaybackOutcome> play(MessageSource& recording, DdsTransport& transport,
                              const PlaybackOptions& options) {
   PlaybackOutcome outcome;
-  PacedSink sink(transport, options.rate);
+  PacedSink sink(transport, options.rate, outcome);
   const std::vector<std::string> topics = announce(recording, sink, options, outcome);
   if (topics.empty()) return failure(recording.name() + ": no topic to play");
   recording.select(topics);
@@ -143,7 +147,6 @@ Result<PlaybackOutcome> play(MessageSource& recording, DdsTransport& transport,
   if (!done) return tl::unexpected(done.error());
   outcome.topics = done->topics;
   outcome.messages = done->messages;
-  outcome.blocked = sink.blocked();
   outcome.complete = done->complete && transport.running();
   return outcome;
 }

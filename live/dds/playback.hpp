@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/time.hpp"
 #include "live/dds/dds_transport.hpp"
 #include "recordings/bag/message_source.hpp"
 
@@ -23,6 +24,9 @@ struct PlaybackOutcome {
   std::uint64_t topics = 0;
   std::uint64_t messages = 0;
   std::uint64_t blocked = 0;         ///< not sent, since subscribers were too slow
+  std::uint64_t unsendable = 0;      ///< not sent, since DDS cannot hold their record times
+  Time unsendable_time = 0;          ///< the first of these
+  std::size_t unanswered = 0;        ///< topics of which a subscriber did not acknowledge the end
   std::vector<std::string> skipped;  ///< topics that ROS 2 cannot hold, with the reason
   bool complete = false;             ///< false when it was interrupted
 };

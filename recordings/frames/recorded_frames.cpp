@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/Geometry>
 #include <numbers>
 
 #include "recordings/frames/fixed_transform.hpp"
@@ -56,6 +57,17 @@ Pose RecordedFrames::extrinsic(const ExtrinsicConfig& configured, const std::str
                          from, to, key),
              key == "T_imu_lidar" ? WarnedSensor::kLidar : WarnedSensor::kLegs);
   return {};
+}
+
+std::string RecordedFrames::moved(const std::string& before, const std::string& now) const {
+  constexpr double kSameM = 1e-4;
+  constexpr double kSameDeg = 0.01;
+  const auto T = all_.transform(before, now);
+  if (!T) return "no transform between them is in tf";
+  const double distance = T->translation.norm();
+  const double angle = Eigen::AngleAxisd(T->rotation).angle() * (180.0 / std::numbers::pi);
+  if (distance < kSameM && angle < kSameDeg) return "";
+  return fmt::format("which lies {:.3f} m and {:.1f} deg from it in tf", distance, angle);
 }
 
 }  // namespace aims

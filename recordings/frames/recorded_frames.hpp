@@ -29,6 +29,10 @@ class RecordedFrames {
   Pose extrinsic(const ExtrinsicConfig& configured, const std::string& from, const std::string& to,
                  std::string_view key, ReadingNotes& notes) const;
 
+  /// Where a sensor lies that was in frame `before` and is in frame `now`: in words, empty where it
+  /// is the same place.
+  std::string moved(const std::string& before, const std::string& now) const;
+
   /// Counts of invalid transforms.
   const EventCounts& counts() const { return counts_; }
 

@@ -8,6 +8,7 @@
 
 #include "recordings/bag/message_source.hpp"
 #include "recordings/clouds/point_cloud.hpp"
+#include "recordings/frames/recorded_frames.hpp"
 #include "recordings/legs/leg_stream.hpp"
 #include "recordings/reading_notes.hpp"
 #include "recordings/stream/recording_reader.hpp"
@@ -36,6 +37,8 @@ struct RecordingPlan {
   std::array<Duration, kRoleCount> wait{};  ///< of messages, for those whose stamps move back more
   std::map<std::string, Duration> repeat_period;     ///< of topics that send each sample repeatedly
   std::array<bool, kRoleCount> stamped_by_record{};  ///< without stamps: record times are used
+  std::string lidar_frame;                           ///< of the first clouds; empty: none
+  RecordedFrames frames;                             ///< for a cloud in another frame than they
 };
 
 /// The configured delay of the stamps that serve a role; 0 for the truth [s].

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/text.hpp"
 #include "recordings/legs/leg_stream.hpp"
 #include "recordings/source/recording_file.hpp"
 #include "recordings/stream/record_clock.hpp"
@@ -55,6 +56,7 @@ struct RecordingReader::Impl {
   void receive(const BagMessage& message, std::vector<Delivery>& out);
   bool is_repeated(const Channel& channel, const MessageView& view);
   void take(const Channel& channel, const MessageView& view, std::vector<Delivery>& out);
+  void watch_frame(const MessageView& view);
   void take_cloud(const MessageView& view, std::vector<Delivery>& out);
   void take_imu(const MessageView& view, std::vector<Delivery>& out);
   void take_legs(const Channel& channel, const MessageView& view, std::vector<Delivery>& out);
@@ -119,9 +121,24 @@ void RecordingReader::Impl::deliver(std::optional<LegOdometrySample> sample,
   deliver(Role::kLegs, *std::move(sample), stamp, out);
 }
 
+/// Warns where the clouds come in another frame than the first ones.
+void RecordingReader::Impl::watch_frame(const MessageView& view) {
+  const std::string frame(view.text("header.frame_id").value_or(""));
+  if (frame.empty() || plan.lidar_frame.empty() || frame == plan.lidar_frame) return;
+  const std::string moved = plan.frames.moved(plan.lidar_frame, frame);
+  if (moved.empty() || counts["lidar_frame_changed"]++ > 0) return;
+  plan.setup.warnings.push_back(
+      {"frame of the LiDAR changed",
+       line_text(fmt::format("the clouds are in frame '{}' after {:.1f} s, in '{}' before: {}; "
+                             "they are used as if it had not changed",
+                             frame, to_seconds(position), plan.lidar_frame, moved)),
+       WarnedSensor::kLidar});
+}
+
 void RecordingReader::Impl::take_cloud(const MessageView& view, std::vector<Delivery>& out) {
   auto table = point_table(view);
   if (!table) return malformed(Role::kLidar);
+  watch_frame(view);
   table->stamp = stamp_of(Role::kLidar, table->stamp, 0.0);
   auto scan = std::make_shared<LidarScan>(read_cloud(*table, plan.cloud, counts));
   const Duration delay = from_seconds(config.lidar_delay);

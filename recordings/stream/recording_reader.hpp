@@ -32,7 +32,7 @@ struct RecordingSetup {
   std::optional<double> leg_rate_hz;  ///< as for the IMU
   /// Assumptions and conversions, one sentence each: "IMU in g: multiplied by 9.80665".
   std::vector<std::string> notes;
-  /// Assumptions that decide the result, and faults that spoil it.
+  /// Assumptions that decide the result, and faults that spoil it; what changes midway is added.
   std::vector<ReadingWarning> warnings;
   std::string leg_lack;  ///< why there are no legs, as far as it is known
 };

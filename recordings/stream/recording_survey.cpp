@@ -327,6 +327,8 @@ Result<RecordingPlan> RecordingSurvey::decide(const std::filesystem::path& bag,
   decide_begin(plan);
   decide_frames(plan);
   decide_truth(plan);
+  plan.lidar_frame = seen(Role::kLidar).frame;
+  plan.frames = frames_;
   for (const auto& [what, times] : frames_.counts()) {
     notes_.push_back(fmt::format("{} {} times: ignored", what, times));
   }

@@ -38,6 +38,20 @@ TEST(ClockWatch, LetsSteadyClocksBe) {
   EXPECT_TRUE(robot.watch.differing().empty());
 }
 
+TEST(ClockWatch, NamesStampsThatStay) {
+  Robot robot;
+  for (int i = 0; i < 800; ++i) {
+    robot.watch.add("/other", -kSecond, robot.now);  // 2^32-1 s, of which ROS 2 has 31 bits
+    if (i == 400) EXPECT_TRUE(robot.watch.differing().empty()) << "two seconds";
+    robot.run(0.005);
+  }
+  EXPECT_EQ(robot.watch.broken(), "");
+  ASSERT_EQ(robot.watch.differing().size(), 1U);
+  EXPECT_EQ(robot.watch.differing()[0], "the stamps of /other stay at -1.0 s");
+  robot.watch.add("/other", robot.now - 700 * kSecond, robot.now);
+  EXPECT_TRUE(robot.watch.differing().empty()) << "set";
+}
+
 TEST(ClockWatch, IsBrokenASecondAfterAllClocksJumped) {
   for (const double jump : {-3600.0, -8.0, 2.0, 1e6}) {
     Robot robot;

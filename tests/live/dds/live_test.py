@@ -124,6 +124,16 @@ class Live:
         return "".join(line for line in lines if "malformed packet" not in line)
 
 
+def altered(name, change):
+    """walk.bag with each message, and its record time, as `change` gives them; nothing is latched."""
+    import rosbag
+
+    with rosbag.Bag("walk.bag") as source, rosbag.Bag(name, "w") as target:
+        for topic, message, stamp in source.read_messages():
+            target.write(topic, *change(topic, message, stamp))
+    return name
+
+
 # A loaded machine may keep clouds waiting.
 PATIENT = ["--max_wait", "20"]
 
@@ -222,6 +232,68 @@ class LiveEstimate(unittest.TestCase):
         self.assertEqual(len(second), len(recorded))
         self.assertAlmostEqual(distance(second[0], second[-1]), distance(recorded[0], recorded[-1]), 5)
         self.assertGreater(distance(second[0], second[-1]), 1.0, "and walks")
+
+    def test_fixed_transforms_that_are_sent_once_last_when_the_estimate_starts_anew(self):
+        once = altered("once.bag", lambda topic, message, stamp: (message, stamp))
+        live = Live(once, "statics", PATIENT)
+        live.wait_for("walk", lambda: live.written() and distance(places(live.poses())[-1], (0, 0, 0)) > 0.5)
+        live.play.kill()
+        live.play.communicate()
+        live.play_command += ["--topics", "/imu/data,/lidar/points,/joint_states,/foot_contacts,/leg_odometry"]
+        live.start_play()
+        live.wait_for("second estimate", lambda: live.written("part-2"))
+        self.assertEqual(live.finish(), 0, live.log())
+        self.assertNotIn("NO TRANSFORM", live.log())
+        self.assertNotIn(b"unknown", content("statics/part-2/aims_d.health.csv"))
+        recorded = places(estimate("statics-2.mcap", "statics-again"))
+        self.assertEqual(len(places(live.poses("part-2"))), len(recorded), "its record has them")
+        self.assertNotIn("NO TRANSFORM", json.dumps(summary("statics-again")["warnings"]))
+
+    def test_clouds_that_go_on_in_another_frame_are_in_the_health(self):
+        def rename(topic, message, stamp):
+            if topic == "/lidar/points" and stamp.to_sec() > 7.0:
+                message.header.frame_id = "rear"
+            return message, stamp
+
+        live = Live(altered("rear.bag", rename), "rear", PATIENT)
+        self.assertEqual(live.finish(), 0, live.log())
+        self.assertRegex(live.log(), "warning: the clouds are in frame 'rear' after .* no transform between them")
+        rows = content("rear/aims_d.health.csv").splitlines()
+        told = [b"frame of the LiDAR changed" in row for row in rows if b"no messages" not in row]
+        self.assertEqual(told, sorted(told), "from then on")
+        self.assertTrue(told[-1] and not told[2], rows)
+        estimate("rear.mcap", "rear-again")
+        self.assertEqual(summary("rear")["warnings"], summary("rear-again")["warnings"])
+
+    def test_a_killed_subscriber_does_not_keep_the_others_waiting(self):
+        live = Live("walk.mcap", "other", PATIENT)
+        with open("killed.log", "w", encoding="utf-8") as log:
+            other = subprocess.Popen([AIMS, "live", "--domain", live.domain, "--node", "killed", *TOPICS], stdout=log,
+                                     stderr=log)
+        try:
+            live.wait_for("the other estimate", lambda: b"publishes" in content("killed.log"))
+        finally:
+            other.kill()
+            other.wait()
+        before = len(places(live.poses()))
+        self.assertEqual(live.finish(), 0, live.log())
+        self.assertGreater(len(places(live.poses())), before + 20, "it was killed midway")
+        self.assertNotIn("not sent", live.said)
+        last = float(live.poses().splitlines()[-1].split()[0])
+        silent = [row for row in content("other/aims_d.health.csv").splitlines() if b"no messages" in row]
+        self.assertEqual([row for row in silent if float(row.split(b",")[0]) < last - 0.5], [], live.log())
+
+    def test_times_of_sending_that_dds_cannot_hold_are_named(self):
+        import genpy
+
+        far = altered("far.bag", lambda topic, message, stamp: (message, genpy.Time(2**32 - 1000 + stamp.secs)))
+        live = Live(far, "far", PATIENT, ["--rate", "0.01"])
+        live.wait_for("reason", lambda: "no messages yet, though there are publishers of " in live.log())
+        live.play.send_signal(signal.SIGTERM)
+        said = live.play.communicate(timeout=20)[0]
+        live.live.send_signal(signal.SIGTERM)
+        self.assertEqual(live.live.wait(20), 2, live.log())
+        self.assertRegex(said, r"messages were not sent: DDS holds times from 1970 to 2038, the first .* 4294966\d\d\d")
 
     def test_commands_save_the_map_and_start_anew(self):
         live = Live("walk.mcap", "commands", PATIENT)

@@ -61,6 +61,43 @@ TEST_F(RecordingReaderTest, ALidarThatStartsAMinuteLaterIsReadLikeAnyOther) {
   EXPECT_NEAR(to_seconds(first - test::imu_of(read.deliveries).at(0).stamp), 3.0, 0.2);
 }
 
+/// What is warned of when clouds of frame "lidar" are followed by clouds of that frame.
+std::vector<ReadingWarning> warnings_after(const std::filesystem::path& file,
+                                           const std::string& frame) {
+  std::filesystem::remove(file);
+  RobotRecording robot(file);
+  auto mounted = kMounted;
+  mounted.push_back({"lidar", "top", {}});
+  mounted.push_back({"lidar", "rear", {Eigen::Quaterniond::Identity(), {-0.4, 0.0, 0.3}}});
+  robot.add_transforms(mounted);
+  robot.add_imu(kStart, 100);
+  robot.add_clouds(kStart, 12);
+  for (int k = 12; k < 15; ++k) {
+    RawCloud cloud = RawCloud::of(kStart + k * 100 * kMillisecond, {{1, 2, 3, 0}, {1, 2, 3, 0.09}});
+    cloud.frame = frame;
+    robot.add_cloud(cloud, cloud.stamp + 100 * kMillisecond);
+  }
+  robot.close();
+  const Recording read = test::read_recording(file);
+  EXPECT_EQ(read.counts.contains("lidar_frame_changed"), !read.setup.warnings.empty());
+  return read.setup.warnings;
+}
+
+TEST_F(RecordingReaderTest, CloudsThatGoOnInAnotherFrameAreAWarningThatSaysWhereItIs) {
+  const auto rear = warnings_after(bag(), "rear");
+  ASSERT_EQ(rear.size(), 1U) << "once";
+  EXPECT_EQ(rear[0].reason, "frame of the LiDAR changed");
+  EXPECT_NE(rear[0].text.find(", in 'lidar' before: which lies 0.500 m"), std::string::npos)
+      << rear[0].text;
+  EXPECT_TRUE(rear[0].concerns(true, false));
+  EXPECT_FALSE(rear[0].concerns(false, true)) << "legs alone";
+  const auto nowhere = warnings_after(bag(), "nowhere");
+  ASSERT_EQ(nowhere.size(), 1U);
+  EXPECT_NE(nowhere[0].text.find("no transform between them"), std::string::npos);
+  EXPECT_TRUE(warnings_after(bag(), "top").empty()) << "the same place";
+  EXPECT_TRUE(warnings_after(bag(), "/lidar").empty()) << "the same frame";
+}
+
 TEST_F(RecordingReaderTest, ARecorderClockThatIsSetBackByMoreThanTheRecordingChangesNoOrder) {
   const Time start = 1'700'000'000 * kSecond;
   for (const Duration back : {7 * kSecond, 3600 * kSecond}) {
