@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/run/sequence_encoding.hpp"
 
+#include <algorithm>
 #include <array>
+#include <concepts>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <span>
+#include <type_traits>
 #include <utility>
+
+#include "core/measurement_members.hpp"
 
 namespace aims {
 namespace {
@@ -14,311 +20,239 @@ enum class Kind : std::uint8_t { kImu = 1, kLegs = 2, kScan = 3 };
 
 /// Of a return: x, y, z, intensity, time offset, ring.
 constexpr std::size_t kPointSize = 4 * sizeof(float) + sizeof(std::int32_t) + sizeof(std::uint16_t);
-constexpr std::size_t kTruthSampleSize = sizeof(Time) + (13 + kLegCount) * sizeof(double);
-constexpr std::size_t kLeastSnapshotSize = sizeof(Time) + sizeof(std::uint64_t);
-constexpr std::size_t kScanInformationSize =
-    sizeof(Time) + 37 * sizeof(double) + sizeof(std::int32_t);
+constexpr std::size_t kLeastEntry = 8;  ///< no entry of a list has fewer bytes
 
-void append_numbers(std::vector<std::byte>& out, std::span<const double> numbers) {
-  append(out, std::as_bytes(numbers));
+template <class Archive, MaybeConst<Pose> Value>
+bool visit_members(Archive& archive, Value& pose) {
+  return archive(pose.rotation.coeffs(), pose.translation);
 }
 
-template <class Matrix>
-void append_matrix(std::vector<std::byte>& out, const Matrix& matrix) {
-  append_numbers(out, {matrix.data(), static_cast<std::size_t>(matrix.size())});
+template <class Archive, MaybeConst<LegGeometry> Value>
+bool visit_members(Archive& archive, Value& legs) {
+  return archive(legs.hip_x, legs.hip_y, legs.abduction, legs.thigh, legs.calf, legs.foot_radius);
 }
 
-/// Copies numbers that lie at the cursor; false when there are fewer.
+template <class Archive, MaybeConst<SensorRig> Value>
+bool visit_members(Archive& archive, Value& rig) {
+  return archive(rig.T_body_lidar, rig.T_body_base, rig.leg_geometry, rig.imu_rate_hz,
+                 rig.leg_rate_hz);
+}
+
+template <class Archive, MaybeConst<WalkOutcome> Value>
+bool visit_members(Archive& archive, Value& walk) {
+  return archive(walk.end, walk.touched_wall, walk.wall_contact_fraction);
+}
+
+/// Biases are not stored.
+template <class Archive, MaybeConst<TruthSample> Value>
+bool visit_members(Archive& archive, Value& sample) {
+  return archive(sample.stamp, sample.T_world_body, sample.velocity, sample.angular_velocity,
+                 sample.slip_speed);
+}
+
+template <class Archive, MaybeConst<RobotSnapshot> Value>
+bool visit_members(Archive& archive, Value& snapshot) {
+  return archive(snapshot.stamp, snapshot.qpos);
+}
+
+template <class Archive, MaybeConst<WaypointTime> Value>
+bool visit_members(Archive& archive, Value& time) {
+  return archive(time.point, time.stamp);
+}
+
+template <class Archive, MaybeConst<ScanInformation> Value>
+bool visit_members(Archive& archive, Value& scan) {
+  return archive(scan.stamp, scan.information, scan.returns, scan.range_sigma);
+}
+
+/// Mounts are not stored.
+template <class Archive, MaybeConst<Truth> Value>
+bool visit_members(Archive& archive, Value& truth) {
+  return archive(truth.walk, truth.samples, truth.snapshots, truth.waypoint_times, truth.scans);
+}
+
+/// Numbers that are stored as they lie in memory.
 template <class T>
-bool take_numbers(ByteCursor& cursor, T* numbers, std::size_t count) {
-  const auto bytes = cursor.take(count * sizeof(T));
-  if (!bytes) return false;
-  std::memcpy(numbers, bytes->data(), bytes->size());
-  return true;
-}
+concept Plain = std::is_arithmetic_v<T> && !std::same_as<T, bool>;
 
+/// Vectors and matrices of fixed size.
 template <class T>
-bool take_number(ByteCursor& cursor, T& number) {
-  return take_numbers(cursor, &number, 1);
-}
+concept Matrix = requires(const T& matrix) {
+  matrix.data();
+  matrix.rows();
+};
 
-template <class Matrix>
-bool take_matrix(ByteCursor& cursor, Matrix& matrix) {
-  return take_numbers(cursor, matrix.data(), static_cast<std::size_t>(matrix.size()));
-}
+/// Writes values at the end of bytes.
+class Writing {
+ public:
+  explicit Writing(std::vector<std::byte>& out) : out_(out) {}
 
-/// A count of things of `size` bytes each that are all there; false otherwise.
-bool take_count(ByteCursor& cursor, std::size_t size, std::size_t& count) {
-  std::uint64_t given = 0;
-  if (!take_number(cursor, given) || given > cursor.left() / size) return false;
-  count = static_cast<std::size_t>(given);
-  return true;
-}
-
-/// Without orientation: the simulated IMU reports none.
-void append_imu(std::vector<std::byte>& out, const ImuSample& sample) {
-  append_number(out, sample.stamp);
-  append_matrix(out, sample.angular_velocity);
-  append_matrix(out, sample.specific_force);
-}
-
-bool take_imu(ByteCursor& cursor, ImuSample& sample) {
-  return take_number(cursor, sample.stamp) && take_matrix(cursor, sample.angular_velocity) &&
-         take_matrix(cursor, sample.specific_force);
-}
-
-void append_legs(std::vector<std::byte>& out, const LegOdometrySample& sample) {
-  append_number(out, sample.stamp);
-  append_pose(out, sample.T_odom_base);
-  append_matrix(out, sample.linear_velocity);
-  append_matrix(out, sample.angular_velocity);
-  for (const bool contact : sample.contact) append_number(out, std::uint8_t{contact});
-  append_numbers(out, sample.joint_position);
-  append_numbers(out, sample.joint_velocity);
-  append_number(out, std::uint8_t{sample.contact_force.has_value()});
-  if (sample.contact_force) append_numbers(out, *sample.contact_force);
-}
-
-/// Forces of the feet, if there are any.
-bool take_force(ByteCursor& cursor, std::optional<FootLoads>& force) {
-  std::uint8_t present = 0;
-  if (!take_number(cursor, present)) return false;
-  if (present == 0) return true;
-  force.emplace();
-  return take_numbers(cursor, force->data(), force->size());
-}
-
-bool take_legs(ByteCursor& cursor, LegOdometrySample& sample) {
-  std::array<std::uint8_t, kLegCount> contact{};
-  const bool complete =
-      take_number(cursor, sample.stamp) && take_pose(cursor, sample.T_odom_base) &&
-      take_matrix(cursor, sample.linear_velocity) && take_matrix(cursor, sample.angular_velocity) &&
-      take_numbers(cursor, contact.data(), contact.size()) &&
-      take_numbers(cursor, sample.joint_position.data(), sample.joint_position.size()) &&
-      take_numbers(cursor, sample.joint_velocity.data(), sample.joint_velocity.size()) &&
-      take_force(cursor, sample.contact_force);
-  for (std::size_t i = 0; i < contact.size(); ++i) sample.contact[i] = contact[i] != 0;
-  return complete;
-}
-
-void append_scan(std::vector<std::byte>& out, const LidarScan& scan) {
-  append_number(out, scan.stamp);
-  append_number(out, scan.end);
-  append_number(out, std::uint64_t{scan.points.size()});
-  std::size_t at = out.size();
-  out.resize(at + scan.points.size() * kPointSize);
-  const auto put = [&](const void* from, std::size_t size) {
-    std::memcpy(out.data() + at, from, size);
-    at += size;
-  };
-  for (const LidarPoint& point : scan.points) {
-    put(point.position.data(), 3 * sizeof(float));
-    put(&point.intensity, sizeof(float));
-    put(&point.time_offset_ns, sizeof(std::int32_t));
-    put(&point.ring, sizeof(std::uint16_t));
+  template <class... Values>
+  bool operator()(const Values&... values) {
+    (write(values), ...);
+    return true;
   }
-}
 
-LidarPoint point_at(const std::byte* bytes) {
-  LidarPoint point;
-  std::memcpy(point.position.data(), bytes, 3 * sizeof(float));
-  point.intensity = load_number<float>(bytes + 12);
-  point.time_offset_ns = load_number<std::int32_t>(bytes + 16);
-  point.ring = load_number<std::uint16_t>(bytes + 20);
-  return point;
-}
+ private:
+  template <class T>
+  void write(const T& value) {
+    if constexpr (Plain<T>) {
+      append_number(out_, value);
+    } else if constexpr (std::same_as<T, bool> || std::is_enum_v<T>) {
+      append_number(out_, static_cast<std::uint8_t>(value));
+    } else if constexpr (Matrix<T>) {
+      append(out_, std::as_bytes(std::span(value.data(), std::size_t(value.size()))));
+    } else {
+      visit_members(*this, value);
+    }
+  }
+  template <class T, std::size_t kSize>
+  void write(const std::array<T, kSize>& values) {
+    for (const T& value : values) write(value);
+  }
+  void write(const Eigen::Quaterniond& rotation) { write(rotation.coeffs()); }
+  template <class T>
+  void write(const std::optional<T>& value) {
+    write(value.has_value());
+    if (value) write(*value);
+  }
+  template <class T>
+  void write(const std::vector<T>& values) {
+    write(std::uint64_t{values.size()});
+    for (const T& value : values) write(value);
+  }
+  void write(const std::string& text) {
+    write(std::uint64_t{text.size()});
+    append(out_, bytes_of(text));
+  }
 
-bool take_scan(ByteCursor& cursor, LidarScan& scan, const ScanFilter& with_points) {
+  std::vector<std::byte>& out_;
+};
+
+/// Reads what `Writing` wrote; false where the bytes end too early.
+class Reading {
+ public:
+  explicit Reading(ByteCursor& cursor) : cursor_(cursor) {}
+
+  template <class... Values>
+  bool operator()(Values&&... values) {
+    return (read(values) && ...);
+  }
+
+  /// A count of things of at least `size` bytes each that are all there.
+  bool count_of(std::size_t size, std::size_t& count) {
+    std::uint64_t given = 0;
+    if (!read(given) || given > cursor_.left() / size) return false;
+    count = static_cast<std::size_t>(given);
+    return true;
+  }
+
+ private:
+  bool copy(void* to, std::size_t size) {
+    const auto bytes = cursor_.take(size);
+    if (bytes) std::memcpy(to, bytes->data(), size);
+    return bytes.has_value();
+  }
+
+  template <class T>
+  bool read(T& value) {
+    if constexpr (Plain<T>) {
+      return copy(&value, sizeof(T));
+    } else if constexpr (std::same_as<T, bool> || std::is_enum_v<T>) {
+      const auto byte = cursor_.number<std::uint8_t>();
+      value = static_cast<T>(byte.value_or(0));
+      return byte.has_value();
+    } else if constexpr (Matrix<T>) {
+      return copy(value.data(), static_cast<std::size_t>(value.size()) * sizeof(value.data()[0]));
+    } else {
+      return visit_members(*this, value);
+    }
+  }
+  template <class T, std::size_t kSize>
+  bool read(std::array<T, kSize>& values) {
+    return std::ranges::all_of(values, [this](T& value) { return read(value); });
+  }
+  bool read(Eigen::Quaterniond& rotation) { return read(rotation.coeffs()); }
+  template <class T>
+  bool read(std::optional<T>& value) {
+    bool present = false;
+    return read(present) && (!present || read(value.emplace()));
+  }
+  template <class T>
+  bool read(std::vector<T>& values) {
+    std::size_t count = 0;
+    if (!count_of(kLeastEntry, count)) return false;
+    values.reserve(count);
+    while (values.size() < count) {
+      if (!read(values.emplace_back())) return false;
+    }
+    return true;
+  }
+  bool read(std::string& text) {
+    std::size_t size = 0;
+    if (!count_of(1, size)) return false;
+    text = as_text(*cursor_.take(size));
+    return true;
+  }
+
+  ByteCursor& cursor_;
+};
+
+/// A scan, whose points are left out unless they are wanted.
+bool read_scan(ByteCursor& cursor, LidarScan& scan, const ScanFilter& with_points) {
+  Reading reading(cursor);
+  if (!reading(scan.stamp, scan.end)) return false;
+  if (with_points(scan)) return reading(scan.points);
   std::size_t count = 0;
-  if (!take_number(cursor, scan.stamp) || !take_number(cursor, scan.end) ||
-      !take_count(cursor, kPointSize, count)) {
-    return false;
-  }
-  const std::byte* bytes = cursor.take(count * kPointSize)->data();
-  if (!with_points(scan)) return true;
-  scan.points.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) scan.points.push_back(point_at(bytes + i * kPointSize));
-  return true;
-}
-
-void append_outcome(std::vector<std::byte>& out, const WalkOutcome& walk) {
-  append_number(out, static_cast<std::uint8_t>(walk.end));
-  append_number(out, std::uint8_t{walk.touched_wall});
-  append_number(out, walk.wall_contact_fraction);
-}
-
-bool take_outcome(ByteCursor& cursor, WalkOutcome& walk) {
-  std::uint8_t end = 0;
-  std::uint8_t touched_wall = 0;
-  if (!take_number(cursor, end) || !take_number(cursor, touched_wall) ||
-      end > static_cast<std::uint8_t>(WalkEnd::kUnstablePhysics)) {
-    return false;
-  }
-  walk.end = static_cast<WalkEnd>(end);
-  walk.touched_wall = touched_wall != 0;
-  return take_number(cursor, walk.wall_contact_fraction);
-}
-
-bool take_sample(ByteCursor& cursor, TruthSample& sample) {
-  return take_number(cursor, sample.stamp) && take_pose(cursor, sample.T_world_body) &&
-         take_matrix(cursor, sample.velocity) && take_matrix(cursor, sample.angular_velocity) &&
-         take_numbers(cursor, sample.slip_speed.data(), sample.slip_speed.size());
-}
-
-bool take_snapshot(ByteCursor& cursor, RobotSnapshot& snapshot) {
-  std::size_t count = 0;
-  if (!take_number(cursor, snapshot.stamp) || !take_count(cursor, sizeof(double), count)) {
-    return false;
-  }
-  snapshot.qpos.resize(count);
-  return take_numbers(cursor, snapshot.qpos.data(), count);
-}
-
-bool take_information(ByteCursor& cursor, ScanInformation& scan) {
-  std::int32_t returns = 0;
-  if (!take_number(cursor, scan.stamp) || !take_matrix(cursor, scan.information) ||
-      !take_number(cursor, returns) || !take_number(cursor, scan.range_sigma)) {
-    return false;
-  }
-  scan.returns = returns;
-  return true;
-}
-
-bool take_waypoint_time(ByteCursor& cursor, WaypointTime& waypoint_time) {
-  return take_text(cursor, waypoint_time.point) && take_number(cursor, waypoint_time.stamp);
-}
-
-/// A count and as many entries of at least `size` bytes.
-template <class Entry>
-bool take_entries(ByteCursor& cursor, std::size_t size, std::vector<Entry>& entries,
-                  bool (*take)(ByteCursor&, Entry&)) {
-  std::size_t count = 0;
-  if (!take_count(cursor, size, count)) return false;
-  entries.resize(count);
-  for (Entry& entry : entries) {
-    if (!take(cursor, entry)) return false;
-  }
-  return true;
+  return reading.count_of(kPointSize, count) && cursor.take(count * kPointSize).has_value();
 }
 
 }  // namespace
 
-void append_pose(std::vector<std::byte>& out, const Pose& pose) {
-  append_matrix(out, pose.rotation.coeffs());
-  append_matrix(out, pose.translation);
-}
+void append_rig(std::vector<std::byte>& out, const SensorRig& rig) { Writing{out}(rig); }
 
-bool take_pose(ByteCursor& cursor, Pose& pose) {
-  return take_matrix(cursor, pose.rotation.coeffs()) && take_matrix(cursor, pose.translation);
-}
-
-bool take_rig(ByteCursor& cursor, SensorRig& rig) {
-  LegGeometry& legs = rig.leg_geometry;
-  return take_pose(cursor, rig.T_body_lidar) && take_pose(cursor, rig.T_body_base) &&
-         take_number(cursor, legs.hip_x) && take_number(cursor, legs.hip_y) &&
-         take_number(cursor, legs.abduction) && take_number(cursor, legs.thigh) &&
-         take_number(cursor, legs.calf) && take_number(cursor, legs.foot_radius) &&
-         take_number(cursor, rig.imu_rate_hz) && take_number(cursor, rig.leg_rate_hz);
-}
-
-void append_rig(std::vector<std::byte>& out, const SensorRig& rig) {
-  append_pose(out, rig.T_body_lidar);
-  append_pose(out, rig.T_body_base);
-  const LegGeometry& legs = rig.leg_geometry;
-  const std::array<double, 8> numbers = {legs.hip_x,      legs.hip_y,     legs.abduction,
-                                         legs.thigh,      legs.calf,      legs.foot_radius,
-                                         rig.imu_rate_hz, rig.leg_rate_hz};
-  append_numbers(out, numbers);
-}
+bool take_rig(ByteCursor& cursor, SensorRig& rig) { return Reading{cursor}(rig); }
 
 void append_text(std::vector<std::byte>& out, std::string_view text) {
-  append_number(out, std::uint64_t{text.size()});
-  append(out, bytes_of(text));
+  Writing{out}(std::string(text));
 }
 
-bool take_text(ByteCursor& cursor, std::string& text) {
-  std::size_t size = 0;
-  if (!take_count(cursor, 1, size)) return false;
-  text = as_text(*cursor.take(size));
-  return true;
-}
+bool take_text(ByteCursor& cursor, std::string& text) { return Reading{cursor}(text); }
 
 void append_delivery(std::vector<std::byte>& out, const Delivery& delivery) {
-  const auto begin = [&](Kind kind) {
-    append_number(out, static_cast<std::uint8_t>(kind));
-    append_number(out, delivery.arrival);
-  };
+  Writing writing(out);
   if (const auto* imu = std::get_if<ImuSample>(&delivery.measurement)) {
-    begin(Kind::kImu);
-    append_imu(out, *imu);
+    writing(Kind::kImu, delivery.arrival, *imu);
   } else if (const auto* legs = std::get_if<LegOdometrySample>(&delivery.measurement)) {
-    begin(Kind::kLegs);
-    append_legs(out, *legs);
+    writing(Kind::kLegs, delivery.arrival, *legs);
   } else {
-    begin(Kind::kScan);
-    append_scan(out, *std::get<LidarScanPtr>(delivery.measurement));
+    writing(Kind::kScan, delivery.arrival, *std::get<LidarScanPtr>(delivery.measurement));
   }
 }
 
 std::optional<Delivery> take_delivery(ByteCursor& cursor, const ScanFilter& with_points) {
-  std::uint8_t kind = 0;
+  Reading reading(cursor);
+  Kind kind{};
   Delivery delivery;
-  if (!take_number(cursor, kind) || !take_number(cursor, delivery.arrival)) return std::nullopt;
-  if (kind == static_cast<std::uint8_t>(Kind::kImu)) {
-    ImuSample sample;
-    if (!take_imu(cursor, sample)) return std::nullopt;
-    delivery.measurement = sample;
-  } else if (kind == static_cast<std::uint8_t>(Kind::kLegs)) {
-    LegOdometrySample sample;
-    if (!take_legs(cursor, sample)) return std::nullopt;
-    delivery.measurement = sample;
-  } else if (kind == static_cast<std::uint8_t>(Kind::kScan)) {
+  bool complete = reading(kind, delivery.arrival);
+  if (kind == Kind::kImu) {
+    complete = complete && reading(delivery.measurement.emplace<ImuSample>());
+  } else if (kind == Kind::kLegs) {
+    complete = complete && reading(delivery.measurement.emplace<LegOdometrySample>());
+  } else if (kind == Kind::kScan) {
     auto scan = std::make_shared<LidarScan>();
-    if (!take_scan(cursor, *scan, with_points)) return std::nullopt;
+    complete = complete && read_scan(cursor, *scan, with_points);
     delivery.measurement = LidarScanPtr(std::move(scan));
   } else {
     return std::nullopt;
   }
-  return delivery;
+  return complete ? std::optional(std::move(delivery)) : std::nullopt;
 }
 
-void append_truth(std::vector<std::byte>& out, const Truth& truth) {
-  append_outcome(out, truth.walk);
-  append_number(out, std::uint64_t{truth.samples.size()});
-  for (const TruthSample& sample : truth.samples) {
-    append_number(out, sample.stamp);
-    append_pose(out, sample.T_world_body);
-    append_matrix(out, sample.velocity);
-    append_matrix(out, sample.angular_velocity);
-    append_numbers(out, sample.slip_speed);
-  }
-  append_number(out, std::uint64_t{truth.snapshots.size()});
-  for (const RobotSnapshot& snapshot : truth.snapshots) {
-    append_number(out, snapshot.stamp);
-    append_number(out, std::uint64_t{snapshot.qpos.size()});
-    append_numbers(out, snapshot.qpos);
-  }
-  append_number(out, std::uint64_t{truth.waypoint_times.size()});
-  for (const WaypointTime& waypoint_time : truth.waypoint_times) {
-    append_text(out, waypoint_time.point);
-    append_number(out, waypoint_time.stamp);
-  }
-  append_number(out, std::uint64_t{truth.scans.size()});
-  for (const ScanInformation& scan : truth.scans) {
-    append_number(out, scan.stamp);
-    append_matrix(out, scan.information);
-    append_number(out, std::int32_t{scan.returns});
-    append_number(out, scan.range_sigma);
-  }
-}
+void append_truth(std::vector<std::byte>& out, const Truth& truth) { Writing{out}(truth); }
 
 bool take_truth(ByteCursor& cursor, Truth& truth) {
-  return take_outcome(cursor, truth.walk) &&
-         take_entries(cursor, kTruthSampleSize, truth.samples, take_sample) &&
-         take_entries(cursor, kLeastSnapshotSize, truth.snapshots, take_snapshot) &&
-         take_entries(cursor, sizeof(std::uint64_t) + sizeof(Time), truth.waypoint_times,
-                      take_waypoint_time) &&
-         take_entries(cursor, kScanInformationSize, truth.scans, take_information);
+  return Reading{cursor}(truth) && truth.walk.end <= WalkEnd::kUnstablePhysics;
 }
 
 }  // namespace aims

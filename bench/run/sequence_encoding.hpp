@@ -17,13 +17,11 @@ namespace aims {
 /// The parts of a sequence's file (bench/run/sequence_file.hpp) as bytes, and back. `append_*`
 /// writes at the end of `out`; `take_*` reads at the cursor and is false, or nothing, where the
 /// bytes end too early or mean nothing.
-void append_pose(std::vector<std::byte>& out, const Pose& pose);
 void append_rig(std::vector<std::byte>& out, const SensorRig& rig);
 void append_text(std::vector<std::byte>& out, std::string_view text);
 void append_delivery(std::vector<std::byte>& out, const Delivery& delivery);
 void append_truth(std::vector<std::byte>& out, const Truth& truth);
 
-bool take_pose(ByteCursor& cursor, Pose& pose);
 bool take_rig(ByteCursor& cursor, SensorRig& rig);
 bool take_text(ByteCursor& cursor, std::string& text);
 /// `with_points`: of which scans the points are taken; it gets them without.

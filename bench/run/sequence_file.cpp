@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kBegin = "aimsseqn";
 constexpr std::string_view kEnd = "seqndone";
-constexpr std::uint32_t kFormat = 5;
+constexpr std::uint32_t kFormat = 6;
 /// At the end of the file: where the truth begins, and `kEnd`.
 constexpr std::size_t kTrailerSize = sizeof(std::uint64_t) + kEnd.size();
 

@@ -180,11 +180,12 @@ void describe(Fields& f, Expectation& e) {
   f.text("score", e.score, {.meaning = "key inside its scores, e.g. m_list_percent.a-b"});
   f.text("sensors", e.sensors,
          {.meaning = "level of the sensors at which it applies; absent: each"});
-  f.number("max", e.max,
-           {.unit = "as the score", .range = within(1e12), .meaning = "largest value that passes"});
+  f.number(
+      "max", e.max,
+      {.unit = "as the score", .range = within(kNoLimit), .meaning = "largest value that passes"});
   f.number(
       "min", e.min,
-      {.unit = "as the score", .range = within(1e12), .meaning = "smallest value that passes"});
+      {.unit = "as the score", .range = within(kNoLimit), .meaning = "smallest value that passes"});
   f.choice("statistic", e.statistic,
            {{"worst", ExpectationStatistic::kWorst},
             {"median", ExpectationStatistic::kMedian},

@@ -25,8 +25,8 @@ enum class ExpectationStatistic {
   kMean,    ///< of `success`: the fraction of seeds
 };
 
-/// A limit that is none.
-inline constexpr double kNoLimit = 1e300;
+/// A limit that is none: the end of the range of limits, so that what is written is read again.
+inline constexpr double kNoLimit = 1e12;
 
 /// Limits that a score must hold over the seeds of an invocation, or it fails (exit code 1). `min`
 /// serves scores of which more is better, and errors that must not become small unnoticed.

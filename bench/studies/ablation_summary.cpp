@@ -2,11 +2,10 @@
 #include <fmt/format.h>
 
 #include "bench/run/code_version.hpp"
-#include "bench/scoring/json_text.hpp"
 #include "bench/scoring/report.hpp"
 #include "bench/scoring/score_record.hpp"
 #include "bench/studies/ablation.hpp"
-#include "core/files/csv.hpp"
+#include "bench/studies/success_columns.hpp"
 
 namespace aims {
 namespace {
@@ -20,11 +19,20 @@ constexpr const char* kAblationIntroduction =
     "the distance, with 95 % Wilson intervals; p of McNemar's exact test against `{0}`, within 5 "
     "%.\n";
 
-std::string ratio_text(const std::optional<double>& ratio) {
-  return ratio ? fmt::format("{:.3g}", *ratio) : "-";
+const TableColumns<PairedStatistics>& cell_columns() {
+  using Cell = PairedStatistics;
+  static const TableColumns<Cell> columns = {
+      {"median", "", &Cell::median},
+      {"worst", "", &Cell::worst},
+      {"ratio", "", &Cell::ratio},
+      {"change", "", &Cell::change},
+      {"change_low", "", [](const Cell& cell) { return cell.interval.low; }},
+      {"change_high", "", [](const Cell& cell) { return cell.interval.high; }},
+      {"count", "", &Cell::count}};
+  return columns;
 }
 
-std::string cell_text(const PairedStatistics& cell, int digits) {
+std::string paired_text(const PairedStatistics& cell, int digits) {
   if (!cell.median) return "-";
   std::string text = fmt::format("{:.{}f}", *cell.median, digits);
   if (cell.ratio) text += fmt::format(" (x{:.3g})", *cell.ratio);
@@ -55,16 +63,15 @@ std::string markdown_of(const Ablation& ablation, const Suite& suite) {
 }
 
 CsvTable csv_of(const Ablation& ablation) {
-  CsvTable table({"scenario", "variant", "score", "median", "worst", "ratio", "change",
-                  "change_low", "change_high", "count", "runs", "successes"});
+  std::vector<std::string> header = csv_header(cell_columns(), {"scenario", "variant", "score"});
+  header.insert(header.end(), {"runs", "successes"});
+  CsvTable table(header);
   for (const AblationCase& each : ablation.cases) {
     for (const AblationRow& row : each.rows) {
       for (std::size_t i = 0; i < kAblationCount; ++i) {
-        const PairedStatistics& cell = row.cells[i];
         table.add(each.scenario).add(row.label).add(ablation_scores()[i].key);
-        table.add(cell.median).add(cell.worst).add(cell.ratio);
-        table.add(cell.change).add(cell.interval.low).add(cell.interval.high);
-        table.add(static_cast<std::int64_t>(cell.count)).add(static_cast<std::int64_t>(row.runs));
+        add_cells(cell_columns(), row.cells[i], table);
+        table.add(static_cast<std::int64_t>(row.runs));
         table.add(static_cast<std::int64_t>(row.successes)).end_row();
       }
     }
@@ -77,23 +84,11 @@ Json case_json(const AblationCase& each) {
   for (const AblationRow& row : each.rows) {
     Json scores = Json::object();
     for (std::size_t i = 0; i < kAblationCount; ++i) {
-      const PairedStatistics& cell = row.cells[i];
-      scores[ablation_scores()[i].key] = {{"median", json_of(cell.median)},
-                                          {"worst", json_of(cell.worst)},
-                                          {"ratio", json_of(cell.ratio)},
-                                          {"change", cell.change},
-                                          {"change_low", json_of(cell.interval.low)},
-                                          {"change_high", json_of(cell.interval.high)},
-                                          {"count", cell.count}};
+      scores[ablation_scores()[i].key] = row_json(cell_columns(), row.cells[i]);
     }
-    const Interval interval = wilson_interval(row.successes, row.runs);
-    variants[row.label] = {{"runs", row.runs},
-                           {"successes", row.successes},
-                           {"success_low", json_of(interval.low)},
-                           {"success_high", json_of(interval.high)},
-                           {"successes_1_percent", row.strict.count},
-                           {"mcnemar_p", row.success_test.p},
-                           {"scores", std::move(scores)}};
+    Json& variant = variants[row.label] = success_json({row.successes, row.runs}, row.strict);
+    variant["mcnemar_p"] = row.success_test.p;
+    variant["scores"] = std::move(scores);
   }
   return {{"scenario", each.scenario}, {"variants", std::move(variants)}};
 }
@@ -121,36 +116,29 @@ Json ablation_json(const Ablation& ablation, const Suite& suite) {
 }  // namespace
 
 TextTable effect_table(const Ablation& ablation) {
-  TextTable table;
-  table.header = {"variant"};
-  for (const Score& score : ablation_scores()) table.header.push_back(title_with_unit(score));
-  table.header.insert(table.header.end(), {"largest of ATE yaw", "in"});
-  for (const AblationEffect& each : ablation.effects) {
-    std::vector<std::string> row = {each.label};
-    for (const auto& ratio : each.ratios) row.push_back(ratio_text(ratio));
-    row.insert(row.end(), {ratio_text(each.worst_ratio), each.worst_scenario});
-    table.rows.push_back(std::move(row));
+  TableColumns<AblationEffect> columns = {{"", "variant", &AblationEffect::label}};
+  for (std::size_t i = 0; i < kAblationCount; ++i) {
+    columns.push_back({"", title_with_unit(ablation_scores()[i]),
+                       [i](const AblationEffect& each) { return each.ratios[i]; }, "{:.3g}"});
   }
-  return table;
+  columns.push_back({"", "largest of ATE yaw", &AblationEffect::worst_ratio, "{:.3g}"});
+  columns.push_back({"", "in", &AblationEffect::worst_scenario});
+  return rows_table(columns, ablation.effects);
 }
 
 TextTable case_table(const AblationCase& each) {
-  TextTable table;
-  table.header = {"variant"};
-  for (const Score& score : ablation_scores()) table.header.push_back(title_with_unit(score));
-  for (const Score& score : success_scores()) table.header.emplace_back(score.title);
-  table.header.emplace_back("McNemar's p");
-  for (const AblationRow& row : each.rows) {
-    std::vector<std::string> cells = {row.label};
-    for (std::size_t i = 0; i < kAblationCount; ++i) {
-      cells.push_back(cell_text(row.cells[i], ablation_scores()[i].digits));
-    }
-    cells.push_back(SuccessRate{row.successes, row.runs}.text());
-    cells.push_back(row.strict.text());
-    cells.push_back(fmt::format("{:.3g}", row.success_test.p));
-    table.rows.push_back(std::move(cells));
+  using Row = AblationRow;
+  TableColumns<Row> columns = {{"", "variant", &Row::label}};
+  for (std::size_t i = 0; i < kAblationCount; ++i) {
+    const Score& score = ablation_scores()[i];
+    columns.push_back({"", title_with_unit(score), [i, digits = score.digits](const Row& row) {
+                         return paired_text(row.cells[i], digits);
+                       }});
   }
-  return table;
+  add_success_columns(columns);
+  columns.push_back(
+      {"", "McNemar's p", [](const Row& row) { return row.success_test.p; }, "{:.3g}"});
+  return rows_table(columns, each.rows);
 }
 
 Result<void> write_ablation(const Ablation& ablation, const Suite& suite,

@@ -2,10 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <set>
 
-#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/columns.hpp"
 #include "bench/scoring/report.hpp"
 #include "bench/studies/comparison.hpp"
 
@@ -22,46 +21,48 @@ std::optional<double> detectable(const ScoreChange& change) {
 
 constexpr std::string_view kComparisonSchema = "aims.compare/3";
 
-Json change_json(const ScoreChange& change) {
-  return {{"scenario", change.scenario},
-          {"estimator", change.estimator},
-          {"score", change.score},
-          {"seeds", change.pairs},
-          {"before", change.before},
-          {"after", change.after},
-          {"worst_after", change.worst_after},
-          {"ratio", change.before > 0.0 ? Json(change.after / change.before) : Json()},
-          {"change", change.test.change},
-          {"change_low", json_of(change.test.interval.low)},
-          {"change_high", json_of(change.test.interval.high)},
-          {"p", change.test.p},
-          {"lost", change.success ? Json(change.success->only_first) : Json()},
-          {"won", change.success ? Json(change.success->only_second) : Json()},
-          {"detectable", json_of(detectable(change))},
-          {"floor", change.floor},
-          {"verdict", name_of(change.verdict)},
-          {"false_alarm", change.false_alarm}};
+std::optional<double> ratio_of(const ScoreChange& change) {
+  return change.before > 0.0 ? std::optional(change.after / change.before) : std::nullopt;
 }
 
-std::vector<std::string> change_row(const ScoreChange& change) {
-  std::string size = fmt::format("{:+.4f}", change.test.change);
-  if (const Interval& range = change.test.interval; range.low) {
-    size += fmt::format(" [{:+.4f}, {:+.4f}]", *range.low, *range.high);
-  }
-  if (change.success) {
-    size += fmt::format(" (-{} +{})", change.success->only_first, change.success->only_second);
-  }
-  const auto smallest = detectable(change);
-  return {change.scenario,
-          change.estimator,
-          change.score,
-          std::to_string(change.pairs),
-          fmt::format("{:.4f}", change.before),
-          fmt::format("{:.4f}", change.after),
-          size,
-          fmt::format("{:.3f}", change.test.p),
-          smallest ? fmt::format("{:.4f}", *smallest) : "-",
-          std::string(name_of(change.verdict))};
+std::optional<std::size_t> lost(const ScoreChange& change) {
+  return change.success ? std::optional(change.success->only_first) : std::nullopt;
+}
+
+std::optional<std::size_t> won(const ScoreChange& change) {
+  return change.success ? std::optional(change.success->only_second) : std::nullopt;
+}
+
+std::string change_text(const ScoreChange& change) {
+  std::string text = fmt::format("{:+.4f}", change.test.change);
+  if (change.test.interval.low) text += " " + interval_text(change.test.interval, "{:+.4f}");
+  if (change.success) text += fmt::format(" (-{} +{})", *lost(change), *won(change));
+  return text;
+}
+
+const TableColumns<ScoreChange>& change_columns() {
+  using Change = ScoreChange;
+  static const TableColumns<Change> columns = {
+      {"scenario", "scenario", &Change::scenario},
+      {"estimator", "estimator", &Change::estimator},
+      {"score", "score", &Change::score},
+      {"seeds", "seeds", &Change::pairs},
+      {"before", "before", &Change::before, "{:.4f}"},
+      {"after", "after", &Change::after, "{:.4f}"},
+      {"worst_after", "", &Change::worst_after},
+      {"ratio", "", ratio_of},
+      {"change", "", [](const Change& c) { return c.test.change; }},
+      {"change_low", "", [](const Change& c) { return c.test.interval.low; }},
+      {"change_high", "", [](const Change& c) { return c.test.interval.high; }},
+      {"", "change [95 %]", change_text},
+      {"p", "p", [](const Change& c) { return c.test.p; }, "{:.3f}"},
+      {"lost", "", lost},
+      {"won", "", won},
+      {"detectable", "detectable", detectable, "{:.4f}"},
+      {"floor", "", &Change::floor},
+      {"verdict", "verdict", [](const Change& c) { return name_of(c.verdict); }},
+      {"false_alarm", "", &Change::false_alarm}};
+  return columns;
 }
 
 std::string list_markdown(const char* title, const std::vector<std::string>& runs) {
@@ -101,22 +102,18 @@ std::string_view name_of(ChangeVerdict verdict) {
 
 Json comparison_json(const Comparison& comparison, const std::string& before,
                      const std::string& after) {
-  Json json = {{"schema", kComparisonSchema},
-               {"before", before},
-               {"after", after},
-               {"compared", comparison.changes.size()},
-               {"better", count(comparison, ChangeVerdict::kBetter)},
-               {"worse", count(comparison, ChangeVerdict::kWorse)},
-               {"expected_false_alarms", comparison.expected_false_alarms},
-               {"rule", rule_text(comparison)},
-               {"changes", Json::array()},
-               {"only_before", comparison.only_before},
-               {"only_after", comparison.only_after},
-               {"invalid", comparison.invalid}};
-  for (const ScoreChange& change : comparison.changes) {
-    json["changes"].push_back(change_json(change));
-  }
-  return json;
+  return {{"schema", kComparisonSchema},
+          {"before", before},
+          {"after", after},
+          {"compared", comparison.changes.size()},
+          {"better", count(comparison, ChangeVerdict::kBetter)},
+          {"worse", count(comparison, ChangeVerdict::kWorse)},
+          {"expected_false_alarms", comparison.expected_false_alarms},
+          {"rule", rule_text(comparison)},
+          {"changes", rows_json(change_columns(), comparison.changes)},
+          {"only_before", comparison.only_before},
+          {"only_after", comparison.only_after},
+          {"invalid", comparison.invalid}};
 }
 
 std::string summary_text(const Comparison& comparison) {
@@ -155,13 +152,9 @@ std::string rule_text(const Comparison& comparison) {
 }
 
 TextTable change_table(const Comparison& comparison) {
-  TextTable table;
-  table.header = {"scenario", "estimator",     "score", "seeds",      "before",
-                  "after",    "change [95 %]", "p",     "detectable", "verdict"};
   std::vector<ScoreChange> changes = comparison.changes;
   std::ranges::stable_sort(changes, {}, &ScoreChange::verdict);
-  std::ranges::transform(changes, std::back_inserter(table.rows), change_row);
-  return table;
+  return rows_table(change_columns(), changes);
 }
 
 Result<void> write_comparison(const Comparison& comparison, const std::string& before,

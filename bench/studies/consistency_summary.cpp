@@ -2,11 +2,10 @@
 #include <fmt/format.h>
 
 #include "bench/run/code_version.hpp"
-#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/columns.hpp"
 #include "bench/scoring/report.hpp"
 #include "bench/scoring/score_record.hpp"
 #include "bench/studies/consistency_study.hpp"
-#include "core/files/csv.hpp"
 
 namespace aims {
 namespace {
@@ -30,19 +29,6 @@ constexpr const char* kConsistencyIntroduction =
     "sensors over the error, rms over seeds; 0.5 is an error of twice the bound. The leg bound is\n"
     "that of IMU and legs alone; it models neither slip nor rolling feet, so that real legs are\n"
     "worse.\n";
-
-std::string text_of(const std::optional<double>& value, int digits) {
-  return value ? fmt::format("{:.{}f}", *value, digits) : "-";
-}
-
-std::string with_interval(const std::optional<double>& value, const Interval& interval,
-                          int digits) {
-  std::string text = text_of(value, digits);
-  if (value && interval.low) {
-    text += fmt::format(" [{}, {}]", text_of(interval.low, digits), text_of(interval.high, digits));
-  }
-  return text;
-}
 
 std::string markdown_of(const ConsistencyStudy& study, const Suite& suite) {
   std::string text = kConsistencyIntroduction;
@@ -173,11 +159,13 @@ TextTable consistency_table(const ConsistencyStudy& study) {
                   "above",    "2 sigma",   "error m", "bound over error"};
   for (const ConsistencyCase& each : study) {
     const Consistency& r = each.result;
-    table.rows.push_back({each.scenario, each.estimator, std::to_string(r.runs),
-                          with_interval(r.mean_nees, r.mean_nees_interval, 2),
-                          text_of(r.inside_fraction, 2), text_of(r.above_fraction, 2),
-                          text_of(r.two_sigma.fraction, 2), fmt::format("{:.3f}", r.error_rms_m),
-                          text_of(r.efficiency, 2)});
+    std::string nees = number_text(r.mean_nees, "{:.2f}");
+    if (r.mean_nees_interval.low) nees += " " + interval_text(r.mean_nees_interval, "{:.2f}");
+    table.rows.push_back(
+        {each.scenario, each.estimator, std::to_string(r.runs), nees,
+         number_text(r.inside_fraction, "{:.2f}"), number_text(r.above_fraction, "{:.2f}"),
+         number_text(r.two_sigma.fraction, "{:.2f}"), fmt::format("{:.3f}", r.error_rms_m),
+         number_text(r.efficiency, "{:.2f}")});
   }
   return table;
 }
@@ -189,15 +177,12 @@ TextTable end_table(const ConsistencyStudy& study) {
   for (const ConsistencyCase& each : study) {
     const ConsistencyInstant& end = each.result.end;
     std::string inside = fmt::format("{}/{}", end.covered.inside, end.covered.runs);
-    if (const Interval& of = end.covered.interval; of.low) {
-      inside += fmt::format(" [{:.2f}, {:.2f}]", *of.low, *of.high);
-    }
+    if (end.covered.interval.low) inside += " " + interval_text(end.covered.interval, "{:.2f}");
     table.rows.push_back(
         {each.scenario, each.estimator, fmt::format("{:.3f}", end.error_rms_m),
          fmt::format("{:.3f}", end.sigma_rms_m), fmt::format("{:.3f}", end.bound_rms_m),
-         fmt::format("{:.3f}", end.leg_bound_rms_m), text_of(end.nees, 2),
-         end.bounds.low ? fmt::format("[{:.2f}, {:.2f}]", *end.bounds.low, *end.bounds.high) : "-",
-         inside});
+         fmt::format("{:.3f}", end.leg_bound_rms_m), number_text(end.nees, "{:.2f}"),
+         interval_text(end.bounds, "{:.2f}"), inside});
   }
   return table;
 }

@@ -13,7 +13,7 @@
 #include "bench/jobs/job_id.hpp"
 #include "bench/jobs/recorded_jobs.hpp"
 #include "bench/run/code_version.hpp"
-#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/columns.hpp"
 #include "bench/scoring/report.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "core/files/config_dump.hpp"
@@ -92,10 +92,6 @@ std::optional<double> ours_in(const SuiteCase& each, const std::string& label,
   return each.runs.empty() ? std::nullopt : find_score(each.runs.front(), label, score);
 }
 
-std::string cell(const std::optional<double>& value) {
-  return value ? fmt::format("{:.3f}", *value) : "-";
-}
-
 Json sequence_json(const DatasetBenchmark& benchmark, const DatasetSequence& sequence,
                    const SuiteCase& each) {
   const DatasetProfile& profile = benchmark.profile;
@@ -166,10 +162,11 @@ TextTable benchmark_table(const DatasetBenchmark& benchmark) {
     const std::string& name = benchmark.sequences[i].name;
     table.rows.push_back({name});
     for (const std::string& label : labels) {
-      table.rows.back().push_back(cell(ours_in(benchmark.suite.cases[i], label, profile.score)));
+      table.rows.back().push_back(
+          number_text(ours_in(benchmark.suite.cases[i], label, profile.score), "{:.3f}"));
     }
     for (const std::string& each : systems) {
-      table.rows.back().push_back(cell(published_in(profile, each, name)));
+      table.rows.back().push_back(number_text(published_in(profile, each, name), "{:.3f}"));
     }
   }
   return table;

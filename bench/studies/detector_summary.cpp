@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <set>
 
-#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/columns.hpp"
 #include "bench/scoring/report.hpp"
-#include "core/files/csv.hpp"
 
 namespace aims {
 namespace {
@@ -27,26 +26,34 @@ constexpr const char* kDetectorsIntroduction =
     "would come 1.4 s after an onset in the median. Pooling over scenarios also rewards an index\n"
     "that differs between scenarios; the tables of single scenarios do not.\n";
 
+const TableColumns<DetectorScore>& score_columns() {
+  using Detector = DetectorScore;
+  static const TableColumns<Detector> columns = {
+      {"scenario", "",
+       [](const Detector& d) { return d.scenario.empty() ? Json() : Json(d.scenario); }},
+      {"level", "", &Detector::level},
+      {"index", "", &Detector::index},
+      {"runs", "", &Detector::runs},
+      {"scans", "", &Detector::scans},
+      {"degenerate", "", &Detector::degenerate},
+      {"auc", "", &Detector::auc},
+      {"auc_low", "", [](const Detector& d) { return d.auc_interval.low; }},
+      {"auc_high", "", [](const Detector& d) { return d.auc_interval.high; }},
+      {"threshold", "", &Detector::threshold},
+      {"detections", "", &Detector::detections},
+      {"onsets", "", &Detector::onsets},
+      {"missed", "", &Detector::missed},
+      {"median_delay_s", "", &Detector::median_delay_s}};
+  return columns;
+}
+
 Json score_json(const DetectorScore& score) {
-  Json curve = Json::array();
+  Json json = row_json(score_columns(), score);
+  json["curve"] = Json::array();
   for (const RocPoint& point : score.curve) {
-    curve.push_back({point.false_positive_rate, point.true_positive_rate});
+    json["curve"].push_back({point.false_positive_rate, point.true_positive_rate});
   }
-  return {{"scenario", score.scenario.empty() ? Json() : Json(score.scenario)},
-          {"level", score.level},
-          {"index", score.index},
-          {"runs", score.runs},
-          {"scans", score.scans},
-          {"degenerate", score.degenerate},
-          {"auc", json_of(score.auc)},
-          {"auc_low", json_of(score.auc_interval.low)},
-          {"auc_high", json_of(score.auc_interval.high)},
-          {"threshold", json_of(score.threshold)},
-          {"detections", json_of(score.detections)},
-          {"onsets", score.onsets},
-          {"missed", score.missed},
-          {"median_delay_s", json_of(score.median_delay_s)},
-          {"curve", std::move(curve)}};
+  return json;
 }
 
 Json study_json(const DetectorStudy& study) {
@@ -77,22 +84,10 @@ Json study_json(const DetectorStudy& study) {
           {"scores", std::move(scores)},   {"warnings", study.warnings}};
 }
 
-CsvTable study_csv(const DetectorStudy& study) {
-  CsvTable table({"scenario", "level", "index", "runs", "scans", "degenerate", "auc", "auc_low",
-                  "auc_high", "threshold", "detections", "onsets", "missed", "median_delay_s"});
-  for (const DetectorScore& s : study.scores) {
-    table.add(s.scenario).add(s.level).add(s.index).add(s.runs).add(s.scans).add(s.degenerate);
-    table.add(s.auc).add(s.auc_interval.low).add(s.auc_interval.high).add(s.threshold);
-    table.add(s.detections).add(s.onsets).add(s.missed).add(s.median_delay_s).end_row();
-  }
-  return table;
-}
-
 std::string auc_text(const DetectorScore& score) {
-  if (!score.auc) return "–";
-  if (!score.auc_interval.low) return fmt::format("{:.3f}", *score.auc);
-  return fmt::format("{:.3f} [{:.3f}, {:.3f}]", *score.auc, *score.auc_interval.low,
-                     *score.auc_interval.high);
+  std::string text = number_text(score.auc, "{:.3f}", "–");
+  if (score.auc_interval.low) text += " " + interval_text(score.auc_interval, "{:.3f}");
+  return text;
 }
 
 /// The scores of one set of runs; an empty name is the pooled set.
@@ -119,8 +114,8 @@ TextTable table_of(std::span<const DetectorScore> scores) {
     for (const DetectorScore& score : scores) {
       if (score.index != index.name) continue;
       row.push_back(auc_text(score));
-      row.push_back(score.detections ? fmt::format("{:.2f}", *score.detections) : "–");
-      row.push_back(score.median_delay_s ? fmt::format("{:.1f}", *score.median_delay_s) : "–");
+      row.push_back(number_text(score.detections, "{:.2f}", "–"));
+      row.push_back(number_text(score.median_delay_s, "{:.1f}", "–"));
       row.push_back(score.auc ? fmt::format("{}/{}", score.missed, score.onsets) : "–");
     }
     if (row.size() > 1) table.rows.push_back(std::move(row));
@@ -180,7 +175,7 @@ std::vector<std::string> undecided_levels(std::span<const DetectorScore> scores)
 Result<void> write_detectors(const DetectorStudy& study, const fs::path& folder) {
   return write_report({.name = "detectors",
                        .markdown = study_markdown(study),
-                       .csv = study_csv(study),
+                       .csv = rows_csv(score_columns(), study.scores),
                        .json = study_json(study)},
                       folder);
 }

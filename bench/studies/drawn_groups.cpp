@@ -8,9 +8,9 @@
 #include <set>
 #include <span>
 
-#include "bench/scoring/json_text.hpp"
 #include "bench/scoring/report.hpp"
 #include "bench/scoring/validity.hpp"
+#include "bench/studies/success_columns.hpp"
 #include "core/config.hpp"
 
 namespace aims {
@@ -148,17 +148,15 @@ TextTable groups_table(const std::vector<DrawnGroup>& groups) {
   TextTable table;
   table.header = {"scenario", "group", "estimator"};
   for (const Score& score : success_scores()) table.header.emplace_back(score.title);
-  for (const Score& score : headline_scores()) {
-    table.header.push_back(fmt::format("{} [{}]", score.title, score.unit));
-  }
+  for (const Score& score : headline_scores()) table.header.push_back(title_with_unit(score));
   for (const DrawnGroup& group : groups) {
     for (const GroupScores& each : group.estimators) {
       std::vector<std::string> row = {group.scenario, group.label, each.estimator,
                                       SuccessRate{each.successes, each.runs}.text(),
                                       each.strict.text()};
       for (std::size_t i = 0; i < kHeadlineCount; ++i) {
-        const auto& median = each.medians[i];
-        row.push_back(median ? fmt::format("{:.{}f}", *median, headline_scores()[i].digits) : "-");
+        row.push_back(
+            number_text(each.medians[i], fmt::format("{{:.{}f}}", headline_scores()[i].digits)));
       }
       table.rows.push_back(std::move(row));
     }
@@ -199,14 +197,9 @@ Json groups_json(const std::vector<DrawnGroup>& groups, const std::string& key,
   for (const DrawnGroup& group : groups) {
     Json estimators = Json::object();
     for (const GroupScores& each : group.estimators) {
-      Json& entry = estimators[each.estimator];
-      const Interval interval = wilson_interval(each.successes, each.runs);
-      entry = {{"runs", each.runs},
-               {"successes", each.successes},
-               {"success_low", json_of(interval.low)},
-               {"success_high", json_of(interval.high)},
-               {"successes_1_percent", each.strict.count},
-               {"median", Json::object()}};
+      Json& entry = estimators[each.estimator] =
+          success_json({each.successes, each.runs}, each.strict);
+      entry["median"] = Json::object();
       for (std::size_t i = 0; i < kHeadlineCount; ++i) {
         entry["median"][std::string(headline_scores()[i].key)] = json_of(each.medians[i]);
       }

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include "bench/scoring/json_text.hpp"
 #include "bench/scoring/report.hpp"
-#include "bench/scoring/score_statistics.hpp"
 #include "bench/studies/paper_study.hpp"
-#include "core/files/csv.hpp"
+#include "bench/studies/success_columns.hpp"
 
 namespace aims {
 namespace {
@@ -23,61 +21,67 @@ constexpr const char* kPaperIntroduction =
     "ATE yaw, ATE start and heading: medians here. Success: runs within 5 and 1 % of the distance\n"
     "travelled, with the 95 % Wilson interval.\n";
 
-std::string figure_text(const std::optional<double>& value) {
-  return value ? fmt::format("{:.2f}", *value) : "–";
-}
+constexpr const char* kNone = "–";
 
 std::string paper_cell_text(const PaperCell& cell, bool in_paper) {
-  const std::string here =
-      fmt::format("{} ({})", figure_text(cell.median), figure_text(cell.worst));
-  return in_paper ? fmt::format("{} · {}", figure_text(cell.figure), here) : here;
+  const auto text = [](const auto& value) { return number_text(value, "{:.2f}", kNone); };
+  const std::string here = fmt::format("{} ({})", text(cell.median), text(cell.worst));
+  return in_paper ? fmt::format("{} · {}", text(cell.figure), here) : here;
 }
 
-std::string tau_interval_text(const Interval& interval) {
-  if (!interval.low) return "–";
-  return fmt::format("[{:.2f}, {:.2f}]", *interval.low, *interval.high);
+const TableColumns<PaperCell>& cell_columns() {
+  static const TableColumns<PaperCell> columns = {{"paper", "", &PaperCell::figure},
+                                                  {"median", "", &PaperCell::median},
+                                                  {"worst", "", &PaperCell::worst}};
+  return columns;
+}
+
+/// One score of one experiment.
+struct OrderRow {
+  std::string scenario;
+  PaperOrder order;
+};
+
+const TableColumns<OrderRow>& order_columns() {
+  using Row = OrderRow;
+  static const TableColumns<Row> columns = {
+      {"", "experiment", &Row::scenario},
+      {"key", "", [](const Row& row) { return row.order.score.key; }},
+      {"title", "score", [](const Row& row) { return row.order.score.title; }},
+      {"systems", "systems", [](const Row& row) { return row.order.systems; }},
+      {"tau", "Kendall's tau", [](const Row& row) { return row.order.tau; }, "{:.2f}"},
+      {"tau_low", "", [](const Row& row) { return row.order.interval.low; }},
+      {"tau_high", "", [](const Row& row) { return row.order.interval.high; }},
+      {"", "95 % interval",
+       [](const Row& row) { return interval_text(row.order.interval, "{:.2f}", kNone); }}};
+  return columns;
 }
 
 Json cell_json(const PaperCell& cell) {
-  Json values = Json::array();
-  for (const double value : cell.values) values.push_back(json_of(value));
-  return {{"paper", json_of(cell.figure)},
-          {"median", json_of(cell.median)},
-          {"worst", json_of(cell.worst)},
-          {"values", std::move(values)}};
+  Json json = row_json(cell_columns(), cell);
+  json["values"] = Json::array();
+  for (const double value : cell.values) json["values"].push_back(json_of(value));
+  return json;
 }
 
 Json system_json(const PaperSystem& system) {
-  Json cells = Json::array();
-  for (const PaperCell& cell : system.cells) cells.push_back(cell_json(cell));
-  Json headline = Json::object();
+  Json json = {{"estimator", system.estimator},
+               {"method", system.method.empty() ? Json() : Json(system.method)}};
+  json.update(success_json({system.successes, system.runs}, system.strict));
+  json["headline"] = Json::object();
   for (std::size_t i = 0; i < system.headline.size(); ++i) {
-    headline[headline_scores()[i].key] = json_of(system.headline[i]);
+    json["headline"][headline_scores()[i].key] = json_of(system.headline[i]);
   }
-  const Interval interval = wilson_interval(system.successes, system.runs);
-  return {{"estimator", system.estimator},
-          {"method", system.method.empty() ? Json() : Json(system.method)},
-          {"runs", system.runs},
-          {"successes", system.successes},
-          {"success_low", json_of(interval.low)},
-          {"success_high", json_of(interval.high)},
-          {"successes_1_percent", system.strict.count},
-          {"headline", std::move(headline)},
-          {"scores", std::move(cells)}};
-}
-
-Json order_json(const PaperOrder& order) {
-  return {{"key", order.score.key},
-          {"title", order.score.title},
-          {"systems", order.systems},
-          {"tau", json_of(order.tau)},
-          {"tau_low", json_of(order.interval.low)},
-          {"tau_high", json_of(order.interval.high)}};
+  json["scores"] = Json::array();
+  for (const PaperCell& cell : system.cells) json["scores"].push_back(cell_json(cell));
+  return json;
 }
 
 Json experiment_json(const PaperExperiment& experiment) {
   Json columns = Json::array();
-  for (const PaperOrder& order : experiment.orders) columns.push_back(order_json(order));
+  for (const PaperOrder& order : experiment.orders) {
+    columns.push_back(row_json(order_columns(), {experiment.scenario, order}));
+  }
   Json systems = Json::array();
   for (const PaperSystem& system : experiment.systems) systems.push_back(system_json(system));
   return {{"scenario", experiment.scenario},
@@ -88,14 +92,16 @@ Json experiment_json(const PaperExperiment& experiment) {
 }
 
 CsvTable paper_csv(const std::vector<PaperExperiment>& experiments) {
-  CsvTable table({"scenario", "score", "estimator", "method", "paper", "median", "worst", "runs",
-                  "successes"});
+  std::vector<std::string> header =
+      csv_header(cell_columns(), {"scenario", "score", "estimator", "method"});
+  header.insert(header.end(), {"runs", "successes"});
+  CsvTable table(header);
   for (const PaperExperiment& experiment : experiments) {
     for (std::size_t i = 0; i < experiment.orders.size(); ++i) {
       for (const PaperSystem& system : experiment.systems) {
-        const PaperCell& cell = system.cells[i];
         table.add(experiment.scenario).add(experiment.orders[i].score.key).add(system.estimator);
-        table.add(system.method).add(cell.figure).add(cell.median).add(cell.worst);
+        table.add(system.method);
+        add_cells(cell_columns(), system.cells[i], table);
         table.add(static_cast<std::int64_t>(system.runs))
             .add(static_cast<std::int64_t>(system.successes))
             .end_row();
@@ -120,40 +126,31 @@ std::string paper_markdown(const std::vector<PaperExperiment>& experiments, cons
 }  // namespace
 
 TextTable system_table(const PaperExperiment& experiment) {
-  TextTable table;
-  table.header = {"system", "in the paper"};
-  for (const Score& score : success_scores()) table.header.emplace_back(score.title);
+  using System = PaperSystem;
+  TableColumns<System> columns = {
+      {"", "system", &System::estimator},
+      {"", "in the paper", [](const System& s) { return s.method.empty() ? kNone : s.method; }}};
+  add_success_columns(columns);
   for (std::size_t i = 0; i < kPaperHeadline; ++i) {
-    table.header.push_back(
-        fmt::format("{} {}", headline_scores()[i].title, headline_scores()[i].unit));
+    const Score& score = headline_scores()[i];
+    columns.push_back({"", fmt::format("{} {}", score.title, score.unit),
+                       [i](const System& s) { return s.headline[i]; },
+                       fmt::format("{{:.{}f}}", score.digits)});
   }
-  for (const PaperOrder& order : experiment.orders) table.header.push_back(order.score.title);
-  for (const PaperSystem& system : experiment.systems) {
-    const bool in_paper = !system.method.empty();
-    std::vector<std::string> row = {system.estimator, in_paper ? system.method : "–",
-                                    SuccessRate{system.successes, system.runs}.text(),
-                                    system.strict.text()};
-    for (std::size_t i = 0; i < system.headline.size(); ++i) {
-      row.push_back(system.headline[i]
-                        ? fmt::format("{:.{}f}", *system.headline[i], headline_scores()[i].digits)
-                        : "–");
-    }
-    for (const PaperCell& cell : system.cells) row.push_back(paper_cell_text(cell, in_paper));
-    table.rows.push_back(std::move(row));
+  for (std::size_t i = 0; i < experiment.orders.size(); ++i) {
+    columns.push_back({"", experiment.orders[i].score.title, [i](const System& s) {
+                         return paper_cell_text(s.cells[i], !s.method.empty());
+                       }});
   }
-  return table;
+  return rows_table(columns, experiment.systems, kNone);
 }
 
 TextTable order_table(const std::vector<PaperExperiment>& experiments) {
-  TextTable table;
-  table.header = {"experiment", "score", "systems", "Kendall's tau", "95 % interval"};
+  std::vector<OrderRow> rows;
   for (const PaperExperiment& experiment : experiments) {
-    for (const PaperOrder& order : experiment.orders) {
-      table.rows.push_back({experiment.scenario, order.score.title, std::to_string(order.systems),
-                            figure_text(order.tau), tau_interval_text(order.interval)});
-    }
+    for (const PaperOrder& order : experiment.orders) rows.push_back({experiment.scenario, order});
   }
-  return table;
+  return rows_table(order_columns(), rows, kNone);
 }
 
 Json paper_json(const std::vector<PaperExperiment>& experiments) {

@@ -3,11 +3,10 @@
 
 #include "bench/metrics/proportion.hpp"
 #include "bench/run/code_version.hpp"
-#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/columns.hpp"
 #include "bench/scoring/report.hpp"
 #include "bench/scoring/score_record.hpp"
 #include "bench/studies/sensitivity.hpp"
-#include "core/files/csv.hpp"
 
 namespace aims {
 namespace {
@@ -25,6 +24,14 @@ double success_p(const SensitivityCell& cell) {
   return mcnemar_test(static_cast<std::size_t>(cell.lost), static_cast<std::size_t>(cell.won)).p;
 }
 
+const TableColumns<SensitivityCell>& cell_columns() {
+  using Cell = SensitivityCell;
+  static const TableColumns<Cell> columns = {
+      {"factor", "", &Cell::factor}, {"ate_ratio", "", &Cell::ratio}, {"pairs", "", &Cell::pairs},
+      {"lost", "", &Cell::lost},     {"won", "", &Cell::won},         {"mcnemar_p", "", success_p}};
+  return columns;
+}
+
 std::string sensitivity_cell_text(const SensitivityCell& cell) {
   if (!cell.ratio) return "-";
   std::string text = fmt::format("{:.3f}", *cell.ratio);
@@ -35,8 +42,7 @@ std::string sensitivity_cell_text(const SensitivityCell& cell) {
 }
 
 std::string sensitivity_markdown(const SettingSensitivity& sensitivity, const Suite& suite) {
-  const std::string ate =
-      sensitivity.median_ate ? fmt::format("{:.3f} m", *sensitivity.median_ate) : "none";
+  const std::string ate = number_text(sensitivity.median_ate, "{:.3f} m", "none");
   std::string text =
       fmt::format(kSensitivityIntroduction, sensitivity.estimator, sensitivity.sequences, ate);
   if (!suite.complete) text += "\n**Interrupted: of the finished runs alone.**\n";
@@ -49,12 +55,12 @@ std::string sensitivity_markdown(const SettingSensitivity& sensitivity, const Su
 }
 
 CsvTable sensitivity_csv(const SettingSensitivity& sensitivity) {
-  CsvTable table({"setting", "value", "factor", "ate_ratio", "pairs", "lost", "won", "mcnemar_p"});
+  CsvTable table(csv_header(cell_columns(), {"setting", "value"}));
   for (const SensitivityRow& row : sensitivity.rows) {
     for (const SensitivityCell& cell : row.cells) {
-      table.add(row.key).add(row.value).add(cell.factor).add(cell.ratio);
-      table.add(static_cast<std::int64_t>(cell.pairs)).add(static_cast<std::int64_t>(cell.lost));
-      table.add(static_cast<std::int64_t>(cell.won)).add(success_p(cell)).end_row();
+      table.add(row.key).add(row.value);
+      add_cells(cell_columns(), cell, table);
+      table.end_row();
     }
   }
   return table;
@@ -70,16 +76,8 @@ Json sensitivity_json(const SettingSensitivity& sensitivity, const Suite& suite)
                {"median_ate_yaw_m", json_of(sensitivity.median_ate)},
                {"settings", Json::object()}};
   for (const SensitivityRow& row : sensitivity.rows) {
-    Json cells = Json::array();
-    for (const SensitivityCell& cell : row.cells) {
-      cells.push_back({{"factor", cell.factor},
-                       {"ate_ratio", json_of(cell.ratio)},
-                       {"pairs", cell.pairs},
-                       {"lost", cell.lost},
-                       {"won", cell.won},
-                       {"mcnemar_p", success_p(cell)}});
-    }
-    json["settings"][row.key] = {{"value", row.value}, {"changes", std::move(cells)}};
+    json["settings"][row.key] = {{"value", row.value},
+                                 {"changes", rows_json(cell_columns(), row.cells)}};
   }
   json["invalid"] = invalid_json(suite);
   return json;

@@ -4,11 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <vector>
 
 #include "bench/metrics/statistics.hpp"
-#include "bench/scoring/score_record.hpp"
+#include "bench/scoring/columns.hpp"
 #include "bench/tuning/analysis.hpp"
 #include "bench/tuning/response_summary.hpp"
 
@@ -17,6 +18,9 @@ namespace {
 
 /// One point over the sequences of its table.
 struct PointSummary {
+  std::string name;  ///< of the estimator
+  bool is_default = false;
+  bool is_best = false;
   std::vector<double> values;
   std::optional<double> objective;
   std::optional<double> median;  ///< of the score
@@ -29,6 +33,7 @@ PointSummary summary_of(const ResponseTable& table, const Objective& objective, 
   const bool of_defaults = point == kDefaults;
   const std::span<const RunScore> runs = of_defaults ? table.default_runs : table.runs[point];
   PointSummary summary;
+  summary.is_default = of_defaults;
   summary.values = of_defaults ? table.defaults : table.points[point];
   std::vector<double> scores;
   for (const RunScore& run : runs) {
@@ -42,73 +47,73 @@ PointSummary summary_of(const ResponseTable& table, const Objective& objective, 
   return summary;
 }
 
-std::vector<std::string> row_of(const std::string& name, const PointSummary& point, bool is_best) {
-  std::vector<std::string> row = {name};
-  for (const double value : point.values) row.push_back(fmt::format("{:g}", value));
-  row.push_back(figure_text(point.objective) + (is_best ? " best" : ""));
-  row.push_back(figure_text(point.median));
-  row.push_back(figure_text(point.worst));
-  row.push_back(fmt::format("{} of {}", point.diverged, point.runs));
-  return row;
+/// The default values, where they were run, then the points.
+std::vector<PointSummary> summaries_of(const SweepResponse& response, const Objective& objective) {
+  const ResponseTable& table = response.table;
+  const auto best = best_point(table, objective);
+  std::vector<PointSummary> summaries;
+  if (!table.default_runs.empty()) summaries.push_back(summary_of(table, objective, kDefaults));
+  for (std::size_t k = 0; k < table.points.size(); ++k) {
+    summaries.push_back(summary_of(table, objective, k));
+    summaries.back().is_best = best && best->point == k;
+  }
+  for (PointSummary& each : summaries) {
+    each.name = response.estimator + (each.is_default ? " (default)" : "");
+  }
+  return summaries;
 }
 
-Json point_json(const ResponseTable& table, const PointSummary& point) {
-  Json values = Json::object();
-  for (std::size_t i = 0; i < point.values.size(); ++i) {
-    values[table.ranges[i].key] = point.values[i];
+TableColumns<PointSummary> point_columns(const std::vector<ParameterRange>& ranges,
+                                         const std::string& score) {
+  using Point = PointSummary;
+  TableColumns<Point> columns = {{"", "estimator", &Point::name}};
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    columns.push_back(
+        {"", ranges[i].key, [i](const Point& point) { return point.values[i]; }, "{:g}"});
   }
-  return {{"values", std::move(values)},
-          {"objective", json_of(point.objective)},
-          {"score_median", json_of(point.median)},
-          {"score_worst", json_of(point.worst)},
-          {"diverged", point.diverged},
-          {"runs", point.runs}};
+  const TableColumns<Point> figures = {
+      {"values", "",
+       [ranges](const Point& point) {
+         Json values = Json::object();
+         for (std::size_t i = 0; i < ranges.size(); ++i) values[ranges[i].key] = point.values[i];
+         return values;
+       }},
+      {"objective", "", &Point::objective},
+      {"", "objective",
+       [](const Point& point) {
+         return figure_text(point.objective) + (point.is_best ? " best" : "");
+       }},
+      {"score_median", "score (" + score + "), median", &Point::median, "{:.3g}"},
+      {"score_worst", "largest", &Point::worst, "{:.3g}"},
+      {"diverged", "", &Point::diverged},
+      {"runs", "", &Point::runs},
+      {"", "diverged",
+       [](const Point& point) { return fmt::format("{} of {}", point.diverged, point.runs); }},
+      {"default", "", &Point::is_default},
+      {"best", "", &Point::is_best}};
+  columns.insert(columns.end(), figures.begin(), figures.end());
+  return columns;
 }
 
 }  // namespace
 
 TextTable point_table(std::span<const SweepResponse> responses, const Objective& objective) {
-  TextTable text;
-  if (responses.empty()) return text;
-  text.header = {"estimator"};
-  for (const ParameterRange& range : responses.front().table.ranges) {
-    text.header.push_back(range.key);
-  }
-  text.header.insert(text.header.end(), {"objective", "score (" + objective.score + "), median",
-                                         "largest", "diverged"});
+  if (responses.empty()) return {};
+  std::vector<PointSummary> points;
   for (const SweepResponse& response : responses) {
-    const ResponseTable& table = response.table;
-    const Objective own = objective_for(objective, table);
-    const auto best = best_point(table, own);
-    if (!table.default_runs.empty()) {
-      text.rows.push_back(
-          row_of(response.estimator + " (default)", summary_of(table, own, kDefaults), false));
-    }
-    for (std::size_t k = 0; k < table.points.size(); ++k) {
-      text.rows.push_back(
-          row_of(response.estimator, summary_of(table, own, k), best && best->point == k));
-    }
+    std::ranges::move(summaries_of(response, objective_for(objective, response.table)),
+                      std::back_inserter(points));
   }
-  return text;
+  return rows_table(point_columns(responses.front().table.ranges, objective.score), points);
 }
 
 Json response_json(const SweepResponse& response, const Objective& objective) {
-  const ResponseTable& table = response.table;
-  const Objective own = objective_for(objective, table);
-  const auto best = best_point(table, own);
-  Json points = Json::array();
-  if (!table.default_runs.empty()) {
-    points.push_back(point_json(table, summary_of(table, own, kDefaults)));
-    points.back().update({{"default", true}, {"best", false}});
-  }
-  for (std::size_t k = 0; k < table.points.size(); ++k) {
-    points.push_back(point_json(table, summary_of(table, own, k)));
-    points.back().update({{"default", false}, {"best", best && best->point == k}});
-  }
+  const Objective own = objective_for(objective, response.table);
   return {{"estimator", response.estimator},
           {"objective", text_of(own)},
           {"incomplete", response.incomplete},
-          {"points", std::move(points)}};
+          {"points", rows_json(point_columns(response.table.ranges, own.score),
+                               summaries_of(response, own))}};
 }
 
 }  // namespace aims

@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/columns.hpp"
 #include "bench/scoring/validity.hpp"
 #include "bench/tuning/sweep_store.hpp"
 #include "core/files/csv.hpp"
@@ -38,18 +38,6 @@ class Columns {
   std::set<std::string> known_;
   std::vector<std::string> names_;
 };
-
-void add_cell(CsvTable& table, const Json& value) {
-  if (value.is_number()) {
-    table.add(value.get<double>());
-  } else if (value.is_boolean()) {
-    table.add(value.get<bool>());
-  } else if (value.is_string()) {
-    table.add(value.get<std::string>());
-  } else {
-    table.add_empty();
-  }
-}
 
 }  // namespace
 
@@ -107,9 +95,8 @@ Result<void> write_sweep_csv(const MergedSweep& sweep, const fs::path& file) {
   Columns scores;
   for (const MergedJob& job : sweep.jobs) {
     if (!is_done(job)) continue;
-    const Json settings = value_in(job.file, "settings", Json::object());
-    for (const auto& [key, unused] : settings.items()) parameters.add(key);
-    visit_leaves(value_in(job.file, "scores", Json()), "",
+    for (const auto& [key, unused] : member(job.file, "settings").items()) parameters.add(key);
+    visit_leaves(member(job.file, "scores"), "",
                  [&](const std::string& key, const Json&) { scores.add(key); });
   }
   std::vector<std::string> header = {"id", "scenario", "seed", "estimator", "outcome"};
@@ -122,12 +109,12 @@ Result<void> write_sweep_csv(const MergedSweep& sweep, const fs::path& file) {
     table.add(job.listed.estimator).add(job.outcome());
     if (is_done(job)) {
       std::map<std::string, Json> found;
-      visit_leaves(value_in(job.file, "scores", Json()), "",
+      visit_leaves(member(job.file, "scores"), "",
                    [&](const std::string& key, const Json& value) { found[key] = value; });
       for (const std::string& key : parameters.names()) {
-        add_cell(table, value_in(value_in(job.file, "settings", Json()), key, Json()));
+        add_cell(member(member(job.file, "settings"), key), table);
       }
-      for (const std::string& key : scores.names()) add_cell(table, found[key]);
+      for (const std::string& key : scores.names()) add_cell(found[key], table);
     }
     table.end_row();
   }

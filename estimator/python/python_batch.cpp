@@ -2,45 +2,72 @@
 #include "estimator/python/python_batch.hpp"
 
 #include <algorithm>
+#include <array>
+#include <optional>
+
+#include "core/measurement_members.hpp"
 
 namespace aims {
 namespace {
 
-void add_vector(PipeMessage& bytes, const Eigen::Vector3d& vector) {
-  for (int axis = 0; axis < 3; ++axis) bytes.add(vector[axis]);
-}
+/// Writes values as cells of eight bytes.
+class Cells {
+ public:
+  explicit Cells(PipeMessage& out) : out_(out) {}
+
+  template <class... Values>
+  bool operator()(const Values&... values) {
+    (write(values), ...);
+    return true;
+  }
+
+ private:
+  template <class Sample>
+  void write(const Sample& sample) {
+    visit_members(*this, sample);
+  }
+  void write(Time time) { out_.add(time); }
+  void write(double value) { out_.add(value); }
+  void write(bool value) { out_.add(value ? 1.0 : 0.0); }
+  void write(const Pose& pose) { out_.add_pose(pose); }
+  void write(const Eigen::Vector3d& vector) {
+    for (const double value : vector) write(value);
+  }
+  template <class T, std::size_t kSize>
+  void write(const std::array<T, kSize>& values) {
+    for (const T& value : values) write(value);
+  }
+  void write(const std::optional<Eigen::Quaterniond>& rotation) {
+    write(rotation.has_value());
+    const Eigen::Quaterniond given = rotation.value_or(Eigen::Quaterniond::Identity());
+    for (const double value : given.coeffs()) write(value);
+  }
+  void write(const std::optional<FootLoads>& loads) {
+    write(loads.has_value());
+    write(loads.value_or(FootLoads{}));
+  }
+
+  PipeMessage& out_;
+};
 
 }  // namespace
 
 void PythonBatch::add(Time arrival, const ImuSample& sample) {
   order_.push_back(Event::kImu);
-  imu_.add(arrival);
-  imu_.add(sample.stamp);
-  add_vector(imu_, sample.specific_force);
-  add_vector(imu_, sample.angular_velocity);
-  imu_.add(sample.orientation ? 1.0 : 0.0);
-  const Eigen::Quaterniond q = sample.orientation.value_or(Eigen::Quaterniond::Identity());
-  for (const double value : {q.x(), q.y(), q.z(), q.w()}) imu_.add(value);
+  Cells{imu_}(arrival, sample);
 }
 
 void PythonBatch::add(Time arrival, const LegOdometrySample& sample) {
   order_.push_back(Event::kLegs);
-  legs_.add(arrival);
-  legs_.add(sample.stamp);
-  legs_.add_pose(sample.T_odom_base);
-  add_vector(legs_, sample.linear_velocity);
-  add_vector(legs_, sample.angular_velocity);
-  for (const double value : sample.joint_position) legs_.add(value);
-  for (const double value : sample.joint_velocity) legs_.add(value);
-  for (const bool value : sample.contact) legs_.add(value ? 1.0 : 0.0);
+  Cells{legs_}(arrival, sample);
 }
 
 void PythonBatch::add(Time arrival, const LidarScan& scan, const SharedMemory::Part& part) {
   order_.push_back(Event::kScan);
-  for (const Time time : {arrival, scan.stamp, scan.end}) scans_.add(time);
-  scans_.add(std::uint64_t{scan.points.size()});
-  scans_.add(part.offset);
-  scans_.add(part.capacity);
+  Cells{scans_}(arrival, scan.stamp, scan.end);
+  for (const std::uint64_t number : {scan.points.size(), part.offset, part.capacity}) {
+    scans_.add(number);
+  }
 }
 
 PipeMessage PythonBatch::take() {

@@ -16,7 +16,7 @@
 namespace aims {
 
 /// Version of the messages between the program and estimator/python/worker.py.
-inline constexpr int kPythonProtocol = 2;
+inline constexpr int kPythonProtocol = 3;
 
 /// Kinds of messages to the process; each is answered by one of `PythonReply`.
 enum class PythonRequest : std::uint64_t { kHello = 1, kCreate = 2, kMeasure = 3, kFinish = 4 };

@@ -28,7 +28,7 @@ try:
 except ImportError:
     sys.exit(126)  # kNoNumpy of python_process.cpp, which says so
 
-VERSION = 2
+VERSION = 3
 HELLO, CREATE, MEASURE, FINISH = 1, 2, 3, 4
 ERROR, DESCRIPTION, DONE, POSES = 0, 1, 2, 3
 IMU, LEGS, SCAN = 1, 2, 3
@@ -328,7 +328,7 @@ class Server:
         imu = self.imu_calls(data, at, samples)
         at += samples * 13 * 8
         leg = self.leg_calls(data, at, legs)
-        at += legs * 52 * 8
+        at += legs * 57 * 8
         scan = iter(struct.iter_unpack("<qqqQQQ", data[at : at + scans * 48]))
         feeder, begin = self.feeder, self.call.begin
         for event in order:
@@ -351,16 +351,16 @@ class Server:
         stamps = cells.view("<i8")[:, 1].tolist()
         turned = cells[:, 8].tolist()
         orientations = (q if has else None for q, has in zip(cells[:, 9:13], turned))
-        return zip(stamps, cells[:, 2:5], cells[:, 5:8], orientations)
+        return zip(stamps, cells[:, 5:8], cells[:, 2:5], orientations)
 
     @staticmethod
     def leg_calls(data, at, count):
-        cells = np.frombuffer(data, "<f8", count * 52, at).reshape(count, 52)
+        cells = np.frombuffer(data, "<f8", count * 57, at).reshape(count, 57)
         stamps = cells.view("<i8")[:, 1].tolist()
         poses = cells[:, 2:18].reshape(count, 4, 4)
-        contacts = cells[:, 48:52] != 0.0
-        return zip(stamps, poses, cells[:, 18:21], cells[:, 21:24], contacts, cells[:, 24:36],
-                   cells[:, 36:48])
+        contacts = cells[:, 24:28] != 0.0
+        return zip(stamps, poses, cells[:, 18:21], cells[:, 21:24], contacts, cells[:, 28:40],
+                   cells[:, 40:52])
 
     def scan(self, arrival, stamp, end, count, offset, capacity):
         points = self.points.scan(count, offset, capacity)

@@ -40,6 +40,16 @@ TEST_F(ScenarioFolder, IsSearchedToItsDepthByBareName) {
   EXPECT_NE(typo.error().message.find("did you mean 'half'?"), std::string::npos);
 }
 
+TEST_F(ScenarioFolder, ItsWrittenConfigurationIsReadAgain) {
+  write("limited.yaml", "expect: [{estimator: aims, score: ate_m, max: 0.1}]");
+  const auto scenario = load_scenario(folder_.path() / "limited.yaml", {});
+  ASSERT_TRUE(scenario) << scenario.error().message;
+  write("again.yaml", effective_config(*scenario, 1).c_str());
+  const auto again = load_scenario(folder_.path() / "again.yaml", {});
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again->expect.front().min, -kNoLimit);
+}
+
 TEST_F(ScenarioFolder, RefusesTwoFilesOfOneName) {
   write("a/same.yaml", "seed: 1");
   write("b/same.yaml", "seed: 2");
