@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bench/estimate/bag_origin.hpp"
+#include "bench/estimate/count_warnings.hpp"
 #include "bench/estimate/estimate_log.hpp"
 #include "bench/estimate/python_classes.hpp"
 #include "bench/estimate/ring_note.hpp"
@@ -141,75 +142,9 @@ std::vector<std::string> reasons_of(const EstimateConfig& config, const Recordin
   return reasons;
 }
 
-int count_of(const EstimateResult& result, const char* what) {
-  const auto found = result.counts.find(what);
-  return found == result.counts.end() ? 0 : found->second;
-}
-
-/// Warns of what the counts of the whole recording say of the IMU.
-void warn_of_imu(EstimateResult& result) {
-  constexpr double kFew = 0.05;  // of the samples
-  const double samples = result.recorded_s * result.setup.imu_rate_hz.value_or(0.0);
-  const int repeated = count_of(result, "imu_stamp_not_increasing");
-  if (repeated <= kFew * samples) return;
-  result.setup.warnings.push_back(
-      {"stamps of the IMU repeat or go backwards",
-       fmt::format("{} IMU samples have stamps that are not after the one before: they are "
-                   "dropped, and the others may be rounded",
-                   repeated)});
-}
-
-/// Likewise of the legs.
-void warn_of_legs(EstimateResult& result) {
-  constexpr int kFewSeconds = 3;     // of a twist that may be a slip
-  constexpr double kMost = 0.5;      // of the samples; a trot has none without contact
-  constexpr double kDisagree = 0.2;  // of the samples
-  const double samples = result.recorded_s * result.setup.leg_rate_hz.value_or(0.0);
-  const std::string& topic = result.setup.topics.leg_odometry;
-  const auto warn = [&result](std::string reason, std::string text) {
-    result.setup.warnings.push_back({std::move(reason), std::move(text), WarnedSensor::kLegs});
-  };
-  if (const int filled = count_of(result, "legs_twist_by_pose_differences"); filled > 0) {
-    warn("twist of the leg odometry is zero",
-         fmt::format("{}: the twist is zero in {} messages whose pose moves: differences of the "
-                     "poses serve",
-                     topic, filled));
-  }
-  if (const int axes = count_of(result, "legs_twist_in_odometry_axes_seconds");
-      axes > kFewSeconds) {
-    warn("twist of the leg odometry in the axes of its world",
-         fmt::format("{}: the twist is in the axes of the odometry's frame for {} s, expected "
-                     "those of the base: use joints and contacts (topics.leg_odometry: none) or "
-                     "correct the driver",
-                     topic, axes));
-  }
-  if (const int none = count_of(result, "legs_no_contact"); none > kMost * samples && none > 0) {
-    warn("feet hardly ever in contact",
-         fmt::format("no foot is in contact in {} of {:.0f} samples of the legs: the last velocity "
-                     "serves there (contact_threshold, contact_detection)",
-                     none, samples));
-  }
-  if (const int apart = count_of(result, "feet_in_contact_disagree"); apart > kDisagree * samples) {
-    warn("feet in contact disagree",
-         fmt::format("the feet in contact state different velocities in {} of {:.0f} samples: is "
-                     "the order of the joints and of the feet right (joint_names, foot_names), "
-                     "and the threshold of contact?",
-                     apart, samples));
-  }
-}
-
 /// Adds what the counts of the whole recording say to the warnings, and all of them to the health.
 void warn_in_health(const EstimateConfig& config, EstimateResult& result) {
-  if (const int early = count_of(result, "recorded_before_their_stamp"); early > 0) {
-    result.setup.warnings.push_back(
-        {"recorder's clock was set back or not set",
-         fmt::format(
-             "{} messages are recorded before their stamp: the recorder's clock was set back "
-             "or not set yet; they arrive at their stamp and the usual delay",
-             early)});
-  }
-  warn_of_imu(result);
-  warn_of_legs(result);
+  warn_of_counts(result);
   for (EstimatorOutcome& each : result.estimators) {
     const auto reasons = reasons_of(config, result.setup, each.name);
     if (reasons.empty()) continue;
@@ -257,7 +192,10 @@ Result<StreamEnd> stream_into_log(const EstimateConfig& config, RecordingReader&
   const auto next_batch = [&](std::vector<Delivery>& batch) {
     auto more = reader.advance(kStreamBatch, batch);
     for (const Delivery& each : batch) {
-      if (const auto* scan = std::get_if<LidarScanPtr>(&each.measurement)) scans.add(**scan);
+      const auto* scan = std::get_if<LidarScanPtr>(&each.measurement);
+      if (scan == nullptr) continue;
+      scans.add(**scan);
+      ++result.clouds;
     }
     return more;
   };

@@ -43,10 +43,11 @@ std::string text_of(const HealthSummary& summary) {
   if (summary.invalid_s > 0.0 || summary.worst == HealthState::kInvalid) {
     states.push_back(fmt::format("INVALID for {:.1f} s", summary.invalid_s));
   }
-  if (summary.degraded_s > 0.0) {
+  if (summary.degraded_s > 0.0 || summary.worst == HealthState::kDegraded) {
     states.push_back(fmt::format("degraded for {:.1f} s", summary.degraded_s));
   }
-  return fmt::format("{} ({})", fmt::join(states, ", "), reasons_text(summary));
+  const std::string reasons = reasons_text(summary);
+  return fmt::format("{}{}", fmt::join(states, ", "), reasons.empty() ? "" : " (" + reasons + ")");
 }
 
 std::vector<std::string> health_lines(const RunRecord& run) {

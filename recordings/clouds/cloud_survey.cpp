@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "recordings/clouds/scan_period.hpp"
 #include "recordings/median.hpp"
@@ -20,6 +22,8 @@ constexpr double kFarPoints = 120.0;          ///< of half of the points, at mos
 constexpr double kFarInCentimetres = 1000.0;  ///< more than that is likely in mm
 /// Larger point times are not relative to the scan [ns].
 constexpr double kMaxRelativeTime = 5e9;
+/// Counters that begin again sooner cannot be told from times within the scan [ns].
+constexpr double kMinWrap = 2e9;
 
 constexpr std::array<std::string_view, 5> kIntensityFields = {"intensity", "reflectivity", "i",
                                                               "intensities", "signal"};
@@ -34,6 +38,12 @@ constexpr std::array<Unit, 4> kUnits = {{{PointTimeUnit::kSeconds, 1e9, "s"},
                                          {PointTimeUnit::kMicroseconds, 1e3, "us"},
                                          {PointTimeUnit::kNanoseconds, 1.0, "ns"}}};
 
+/// Where counters of that type begin again; 0: nowhere.
+double wrap_of(NumberType type) {
+  if (type == NumberType::kUint16) return 65536.0;
+  return type == NumberType::kUint32 ? 4294967296.0 : 0.0;
+}
+
 std::string_view unit_name(double ns) {
   for (const Unit& unit : kUnits) {
     if (unit.ns == ns) return unit.name;
@@ -41,21 +51,21 @@ std::string_view unit_name(double ns) {
   return "?";
 }
 
-/// Largest less smallest value; of at least one.
-double spread(const std::vector<double>& values) {
-  const auto [smallest, largest] = std::ranges::minmax(values);
-  return largest - smallest;
-}
+/// Points whose elevations differ by less are of one ring, of which the azimuths tell the spin
+/// [rad].
+constexpr double kElevationBin = 1e-3;
 
 }  // namespace
 
 void CloudSurvey::find_fields(const PointTable& table) {
   for (const std::string_view name : time_field_names()) {
-    if (table.find(name) != nullptr) time_fields_.emplace_back(name);
+    const ColumnLayout* column = table.find(name);
+    if (column == nullptr || std::ranges::find(time_fields_, name) != time_fields_.end()) continue;
+    time_fields_.emplace_back(name);
+    time_wraps_.push_back(wrap_of(column->type));
   }
-  if (const ColumnLayout* intensity = table.find_any(kIntensityFields)) {
-    intensity_field_ = intensity->name;
-  }
+  const ColumnLayout* intensity = table.find_any(kIntensityFields);
+  if (intensity_field_.empty() && intensity != nullptr) intensity_field_ = intensity->name;
 }
 
 void CloudSurvey::extend(std::optional<TimeRange>& range, double time) {
@@ -63,6 +73,21 @@ void CloudSurvey::extend(std::optional<TimeRange>& range, double time) {
   if (!range) range = TimeRange{time, time};
   range->first = std::min(range->first, time);
   range->last = std::max(range->last, time);
+}
+
+/// In which direction the azimuth changes from point to point of a ring: in firing order the points
+/// between them are of other rings.
+void CloudSurvey::add_azimuth(const Eigen::Vector3d& position) {
+  constexpr double kLeast = 1e-5, kMost = 0.2;  // [rad]
+  const double elevation = std::atan2(position.z(), std::hypot(position.x(), position.y()));
+  const auto bin = static_cast<std::size_t>((elevation + std::numbers::pi / 2.0) / kElevationBin);
+  const double azimuth = std::atan2(position.y(), position.x());
+  std::optional<float>& last = last_azimuths_.at(bin);
+  const double step = last ? azimuth - static_cast<double>(*last) : 0.0;
+  if (std::abs(step) > kLeast && std::abs(step) < kMost) {
+    ++(step > 0.0 ? rising_azimuths_ : falling_azimuths_);
+  }
+  last = static_cast<float>(azimuth);
 }
 
 void CloudSurvey::read_points(const PointTable& table, Cloud& cloud) {
@@ -76,17 +101,14 @@ void CloudSurvey::read_points(const PointTable& table, Cloud& cloud) {
       z(table, *table.find("z"));
   cloud.ranges.resize(times.size());
   rings_.begin(table);
-  std::optional<double> last_azimuth;
+  last_azimuths_.assign(static_cast<std::size_t>(std::numbers::pi / kElevationBin) + 1, {});
   for (std::size_t i = 0; i < table.size(); ++i) {
     const std::byte* bytes = table.point(i);
     const Eigen::Vector3d position(x.at(bytes), y.at(bytes), z.at(bytes));
     if (!position.allFinite() || position.isZero(0.0)) continue;
     rings_.add(table, i, position);
     if (ranges_.size() < kMaxRanges) ranges_.push_back(position.norm());
-    const double azimuth = std::atan2(position.y(), position.x());
-    const double step = last_azimuth ? azimuth - *last_azimuth : 0.0;
-    if (std::abs(step) < 0.2) (step > 0.0 ? rising_azimuths_ : falling_azimuths_) += step != 0.0;
-    last_azimuth = azimuth;
+    add_azimuth(position);
     if (intensity != nullptr) {
       const double value = PointField(table, *intensity).at(bytes);
       if (std::isfinite(value)) largest_intensity_ = std::max(largest_intensity_, value);
@@ -99,7 +121,8 @@ void CloudSurvey::read_points(const PointTable& table, Cloud& cloud) {
 
 void CloudSurvey::add(const PointTable& table, Time record_time) {
   if (clouds_.size() >= kMaxClouds) return;
-  if (clouds_.empty()) find_fields(table);
+  find_fields(table);
+  stamp_steps_ += !clouds_.empty() && table.stamp != clouds_.back().stamp ? 1 : 0;
   Cloud cloud{table.stamp, record_time, table.time_base, {}};
   read_points(table, cloud);
   clouds_.push_back(std::move(cloud));
@@ -107,7 +130,7 @@ void CloudSurvey::add(const PointTable& table, Time record_time) {
 
 std::vector<Time> CloudSurvey::stamps() const {
   std::vector<Time> all;
-  for (const Cloud& cloud : clouds_) all.push_back(cloud.stamp);
+  for (const Cloud& cloud : clouds_) all.push_back(time_of(cloud));
   return all;
 }
 
@@ -128,6 +151,22 @@ bool CloudSurvey::is_normalized(std::size_t field, double span, Duration about) 
   const bool after = first > -1e-6 && last<1.0001, before = first> - 1.0001 && last < 1e-6;
   const bool unit_range = span > 0.8 && span < 1.0001 && (after || before);
   return unit_range && about < kLongestScan * 2 / 3;
+}
+
+/// Whether the field is a clock that runs on from cloud to cloud as the stamps do.
+bool CloudSurvey::advances_with_stamps(std::size_t field, double unit_ns, double wrap_ns) const {
+  const Cloud* last = nullptr;
+  int together = 0, apart = 0;
+  for (const Cloud& cloud : clouds_) {
+    if (cloud.ranges.size() <= field || !cloud.ranges[field]) continue;
+    const Cloud* before = std::exchange(last, &cloud);
+    const double step = before ? static_cast<double>(time_of(cloud) - time_of(*before)) : 0.0;
+    if (!(step > 0.0)) continue;
+    double run = (cloud.ranges[field]->first - before->ranges[field]->first) * unit_ns;
+    if (run < 0.0) run += wrap_ns;
+    ++(std::abs(run - step) < 0.5 * step ? together : apart);
+  }
+  return together > apart;
 }
 
 /// Whether the field advances during a scan as a time does; if so, how to read it.
@@ -152,22 +191,20 @@ bool CloudSurvey::decide_clock(const RecordingConfig& config, std::size_t field,
   reading.time_unit = *unit;
   reading.clock = PointClock::kStamp;
   std::vector<double> delays;  // of the first firing after the stamp, on the stamps' clock [ns]
-  std::vector<double> firsts, cloud_stamps;
   for (const Cloud& cloud : clouds_) {
     if (cloud.ranges.size() <= field || !cloud.ranges[field]) continue;
     const double first = cloud.ranges[field]->first * *unit;
     const double base = static_cast<double>(cloud.time_base.value_or(0));
     delays.push_back(base + first - static_cast<double>(cloud.stamp));
-    firsts.push_back(first);
-    cloud_stamps.push_back(static_cast<double>(cloud.stamp));
   }
   const double first = *median_first(field) * *unit;
   const bool has_base = std::any_of(clouds_.begin(), clouds_.end(),
                                     [](const Cloud& cloud) { return cloud.time_base.has_value(); });
   const bool same_clock = std::abs(*upper_median(delays)) < static_cast<double>(kLongestScan);
-  // Stamps may be small themselves; then times of their clock advance with them.
-  const bool advances = spread(firsts) > 0.5 * spread(cloud_stamps);
-  const bool from_stamp = std::abs(first) < kMaxRelativeTime && !(same_clock && advances);
+  // A clock that counts from boot may be small, as stamps may be; then it runs on with them.
+  reading.time_wrap = time_wraps_[field] * *unit > kMinWrap ? time_wraps_[field] * *unit : 0.0;
+  const bool advances = advances_with_stamps(field, *unit, reading.time_wrap);
+  const bool from_stamp = std::abs(first) < kMaxRelativeTime && !advances;
   if (has_base) {
     reading.clock = same_clock ? PointClock::kEpoch : PointClock::kStamp;
   } else if (!from_stamp) {
@@ -201,7 +238,8 @@ void CloudSurvey::decide_times(const RecordingConfig& config, CloudReading& read
     notes.push_back(fmt::format("point field '{}' does not advance during the scan: not a time",
                                 time_fields_[field]));
   }
-  const std::optional<Duration> period = scan_period(stamps(), span);
+  const bool too_long = span && *span >= 2 * about;
+  const std::optional<Duration> period = scan_period(stamps(), too_long ? std::nullopt : span);
   reading.period =
       std::clamp(period.value_or(fallback), kMillisecond, static_cast<Duration>(kLongestScan));
   if (!period) {
@@ -220,21 +258,20 @@ void CloudSurvey::decide_times(const RecordingConfig& config, CloudReading& read
                     reading.time_field, first_firing_ns(reading) < 0.0 ? "-1 to 0" : "0 to 1",
                     to_seconds(reading.period)));
   }
-  note_length(span, about, reading, notes);
+  if (too_long) warn_of_length(*span, about, reading, notes);
   notes.push_back(fmt::format("point time: field '{}' in {}, {}", reading.time_field,
                               unit_name(reading.time_unit),
                               kOrigins[static_cast<std::size_t>(reading.clock)]));
 }
 
 /// Warns of point times that last longer than the scans.
-void CloudSurvey::note_length(std::optional<Duration> span, Duration about,
-                              const CloudReading& reading, ReadingNotes& notes) {
-  if (!span || *span < 2 * about) return;
+void CloudSurvey::warn_of_length(Duration span, Duration about, const CloudReading& reading,
+                                 ReadingNotes& notes) {
   notes.warn(
       "point times longer than the scan",
       fmt::format("point field '{}' spans {:.4g} s, but a cloud comes every {:.4g} s: is its "
                   "unit not {} (point_time_unit)?",
-                  reading.time_field, to_seconds(*span), to_seconds(about),
+                  reading.time_field, to_seconds(span), to_seconds(about),
                   unit_name(reading.time_unit)));
 }
 
@@ -271,9 +308,21 @@ double CloudSurvey::first_firing_ns(const CloudReading& reading) const {
   return upper_median(firsts).value_or(0.0);
 }
 
+/// Clouds without stamps have their record times, at which their scans are complete.
+void CloudSurvey::stamp_by_record(CloudReading& reading, ReadingNotes& notes) const {
+  const bool before = first_firing_ns(reading) < -0.5 * static_cast<double>(reading.period);
+  reading.stamp = CloudStamp::kEnd;
+  reading.counted_from_start = reading.clock != PointClock::kStamp || !before;
+  notes.warn("clouds without stamps",
+             "stamps of clouds do not advance: their record times serve, as the end of the scans "
+             "(cloud_stamp)");
+}
+
 /// Whether the stamp marks the start or the end of the scan.
 void CloudSurvey::decide_stamp(const RecordingConfig& config, CloudReading& reading,
                                ReadingNotes& notes) const {
+  if (unstamped() && config.cloud_stamp == CloudStamp::kAuto)
+    return stamp_by_record(reading, notes);
   const auto period = static_cast<double>(reading.period);
   std::vector<double> latencies;
   for (const Cloud& cloud : clouds_) {

@@ -35,10 +35,16 @@ class CloudSurvey {
   };
   void find_fields(const PointTable& table);
   static void extend(std::optional<TimeRange>& range, double time);
+  void add_azimuth(const Eigen::Vector3d& position);
   void read_points(const PointTable& table, Cloud& cloud);
+  /// Whether stamps are zero, or of a clock that stands still or counts whole seconds.
+  bool unstamped() const { return clouds_.size() >= 3 && stamp_steps_ * 5 < clouds_.size(); }
+  Time time_of(const Cloud& cloud) const { return unstamped() ? cloud.arrival : cloud.stamp; }
+  bool advances_with_stamps(std::size_t field, double unit_ns, double wrap_ns) const;
   bool is_normalized(std::size_t field, double span, Duration about) const;
-  static void note_length(std::optional<Duration> span, Duration about, const CloudReading& reading,
-                          ReadingNotes& notes);
+  static void warn_of_length(Duration span, Duration about, const CloudReading& reading,
+                             ReadingNotes& notes);
+  void stamp_by_record(CloudReading& reading, ReadingNotes& notes) const;
   bool decide_clock(const RecordingConfig& config, std::size_t field, Duration about,
                     CloudReading& reading) const;
   void decide_times(const RecordingConfig& config, CloudReading& reading,
@@ -54,11 +60,14 @@ class CloudSurvey {
   std::optional<double> median_first(std::size_t field) const;
 
   std::vector<Cloud> clouds_;
+  std::size_t stamp_steps_ = 0;  ///< clouds with another stamp than the one before
   std::vector<std::string> time_fields_;
+  std::vector<double> time_wraps_;  ///< of these, where an integer begins again at 0; 0: does not
   std::string intensity_field_;
   double largest_intensity_ = 0.0;
   std::vector<double> ranges_;  ///< of the first points [m]
   RingSurvey rings_;
+  std::vector<std::optional<float>> last_azimuths_;  ///< in this cloud, by elevation [rad]
   int rising_azimuths_ = 0, falling_azimuths_ = 0;
 };
 

@@ -11,6 +11,8 @@ namespace {
 
 /// Largest difference between the time of a point and its cloud's stamp.
 constexpr Duration kMaxPointOffset = kSecond;
+/// So few points of a cloud may fire at one instant.
+constexpr std::size_t kFewPoints = 100;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 /// Azimuth margin before the first point within which an early point belongs to the start [rad].
 constexpr double kStartMargin = 0.02;
@@ -74,6 +76,7 @@ class CloudDecoder {
   std::vector<LidarPoint> points();
 
  private:
+  Duration unwrapped(Duration after) const;
   Time zero() const;
   void read_fields(std::size_t begin, Block& block) const;
   bool read_time(double value, LidarPoint& point) const;
@@ -91,18 +94,32 @@ class CloudDecoder {
   int not_finite_ = 0, at_zero_ = 0, untimed_ = 0;
 };
 
+/// A difference of times of which the counter may have begun again at 0 in between.
+Duration CloudDecoder::unwrapped(Duration after) const {
+  const bool absolute =
+      reading_.clock == PointClock::kOther || reading_.clock == PointClock::kEpoch;
+  if (!absolute || !(reading_.time_wrap > 0.0) || table_.time_base) return after;
+  const auto wrap = static_cast<Duration>(reading_.time_wrap);
+  const Duration within = (after % wrap + wrap) % wrap;
+  return within > wrap / 2 ? within - wrap : within;
+}
+
 /// Origin of the points' times, on the clock of their field.
 Time CloudDecoder::zero() const {
   if (reading_.clock == PointClock::kEpoch) {
     return table_.time_base ? table_.stamp - *table_.time_base : table_.stamp;
   }
   if (reading_.clock != PointClock::kOther || !columns_.time) return 0;
-  std::optional<Time> first;
+  std::optional<Time> any;
+  Duration first = 0;  // after that
   for (std::size_t i = 0; i < table_.size(); ++i) {
     const auto time = point_time(columns_.time->at(table_.point(i)), reading_.time_unit);
-    if (time && (!first || *time < *first)) first = time;
+    Duration after = 0;
+    if (!time || __builtin_sub_overflow(*time, any.value_or(*time), &after)) continue;
+    if (!any) any = time;
+    first = std::min(first, unwrapped(after));
   }
-  return first.value_or(0);
+  return any.value_or(0) + first;
 }
 
 /// The fields of the points from `begin` on, within its row.
@@ -125,6 +142,7 @@ bool CloudDecoder::read_time(double value, LidarPoint& point) const {
   const auto time = point_time(value, reading_.time_unit);
   Time after = 0;
   if (!time || __builtin_sub_overflow(*time, zero_, &after)) return false;
+  after = unwrapped(after);
   if (after < -kMaxPointOffset || after > kMaxPointOffset) return false;
   point.time_offset_ns = static_cast<std::int32_t>(after);
   return true;
@@ -185,6 +203,11 @@ std::vector<LidarPoint> CloudDecoder::points() {
   count("cloud_points_not_finite", not_finite_);
   count("cloud_points_zero", at_zero_);
   count("cloud_points_time_out_of_range", untimed_);
+  count("cloud_mostly_untimed", static_cast<std::size_t>(untimed_) > points.size() ? 1 : 0);
+  if (columns_.time && points.size() > kFewPoints) {
+    const auto [first, last] = std::ranges::minmax(points, {}, &LidarPoint::time_offset_ns);
+    count("cloud_without_times", first.time_offset_ns == last.time_offset_ns ? 1 : 0);
+  }
   return points;
 }
 

@@ -28,6 +28,7 @@ struct CloudReading {
   PointClock clock = PointClock::kNone;
   std::string time_field;
   double time_unit = 1.0;                 ///< of that field [ns]
+  double time_wrap = 0.0;                 ///< where a counter begins again; 0: nowhere [ns]
   bool normalized_times = false;          ///< the unit is the scan: from 0 to 1 or -1 to 0
   CloudStamp stamp = CloudStamp::kStart;  ///< never kAuto
   bool counted_from_start = true;         ///< times begin with the scan, not at the stamp

@@ -43,16 +43,19 @@ std::vector<double> ring_elevations(std::vector<float> elevations) {
 std::span<const std::string_view> ring_field_names() { return kRingFields; }
 
 void RingSurvey::begin(const PointTable& table) {
-  if (!begun_) {
-    begun_ = true;
-    const std::size_t smaller = std::min(table.width, table.height);
-    if (const ColumnLayout* ring = table.find_any(kRingFields)) {
-      source_ = RingSource::kField;
-      name_ = ring->name;
-    } else if (smaller > 1 && smaller <= kMaxRings) {
-      source_ = table.height <= table.width ? RingSource::kRow : RingSource::kColumn;
-    }
+  const std::size_t smaller = std::min(table.width, table.height);
+  const ColumnLayout* ring = table.find_any(kRingFields);
+  // The first clouds of a driver may lack what the others have.
+  if (source_ != RingSource::kField && ring != nullptr) {
+    source_ = RingSource::kField;
+    name_ = ring->name;
+    rings_.clear();
+    number_.reset();
+    other_numbers_ = false;
+  } else if (!begun_ && smaller > 1 && smaller <= kMaxRings) {
+    source_ = table.height <= table.width ? RingSource::kRow : RingSource::kColumn;
   }
+  begun_ = true;
   field_.reset();
   if (source_ != RingSource::kField) return;
   if (const ColumnLayout* column = table.find(name_)) field_.emplace(table, *column);
@@ -61,15 +64,14 @@ void RingSurvey::begin(const PointTable& table) {
 void RingSurvey::add(const PointTable& table, std::size_t index, const Eigen::Vector3d& position) {
   const double elevation = std::atan2(position.z(), std::hypot(position.x(), position.y()));
   if (elevations_.size() < kMaxElevations) elevations_.push_back(static_cast<float>(elevation));
-  if (source_ == RingSource::kNone) return;
+  if (source_ == RingSource::kNone || (source_ == RingSource::kField && !field_)) return;
   double ring = -1.0;
   if (source_ == RingSource::kRow) ring = static_cast<double>(index / table.width);
   if (source_ == RingSource::kColumn) ring = static_cast<double>(index % table.width);
   if (field_) ring = field_->at(table.point(index));
-  if (!(ring >= 0.0) || ring >= static_cast<double>(kMaxRings)) {
-    other_numbers_ = true;
-    return;
-  }
+  if (!number_) number_ = ring;
+  other_numbers_ = other_numbers_ || ring != *number_;
+  if (!(ring >= 0.0) || ring >= static_cast<double>(kMaxRings)) return;
   const auto at = static_cast<std::size_t>(ring);
   if (at >= rings_.size()) rings_.resize(at + 1);
   rings_[at].elevation_sum += elevation;
@@ -118,9 +120,8 @@ LidarRings RingSurvey::rings() const {
 /// elevations.
 bool RingSurvey::is_constant() const {
   if (source_ != RingSource::kField || other_numbers_ || elevations_.empty()) return false;
-  const auto used = std::ranges::count_if(rings_, [](const Mean& ring) { return ring.points > 0; });
   const auto [lowest, highest] = std::ranges::minmax(elevations_);
-  return used <= 1 && highest - lowest > kRingDeviation;
+  return highest - lowest > kRingDeviation;
 }
 
 /// Rings from the elevations of the points; `lack` says why.
@@ -140,19 +141,33 @@ void RingSurvey::derive(const std::string& lack, CloudReading& reading, ReadingN
   notes.push_back(fmt::format("{}: derived from elevation, {} rings", lack, count));
 }
 
+/// The same where the recording has rings that are none.
+void RingSurvey::derive_instead(const std::string& lack, CloudReading& reading,
+                                ReadingNotes& notes) const {
+  notes.warn("rings derived from elevation",
+             lack + ": it is no ring; enable it in the LiDAR's driver");
+  derive(lack, reading, notes);
+}
+
 void RingSurvey::decide(CloudReading& reading, ReadingNotes& notes) const {
   reading.ring_source = source_;
   reading.ring_field = name_;
   if (source_ == RingSource::kNone) return derive("points have no ring", reading, notes);
   if (is_constant()) {
-    const std::string lack = fmt::format("point field '{}' is the same for all points", name_);
-    notes.warn("rings derived from elevation",
-               lack + ": it is no ring; enable it in the LiDAR's driver");
-    return derive(lack, reading, notes);
+    return derive_instead(fmt::format("point field '{}' is the same for all points", name_),
+                          reading, notes);
   }
   if (source_ != RingSource::kField) {
     notes.push_back(fmt::format("points have no ring: derived from the {} of the organised cloud",
                                 source_ == RingSource::kRow ? "row" : "column"));
+  }
+  // Points of a rosette lie at all elevations.
+  if (source_ == RingSource::kField && are_lines() && !ring_elevations(elevations_).empty()) {
+    return derive_instead(
+        fmt::format("point field '{}' does not go with the elevations of the points, which form "
+                    "groups",
+                    name_),
+        reading, notes);
   }
   if (are_lines()) {
     notes.push_back(

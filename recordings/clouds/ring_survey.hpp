@@ -41,6 +41,7 @@ class RingSurvey {
   bool are_lines() const;
   bool is_constant() const;
   void derive(const std::string& lack, CloudReading& reading, ReadingNotes& notes) const;
+  void derive_instead(const std::string& lack, CloudReading& reading, ReadingNotes& notes) const;
   LidarRings rings() const;
 
   bool begun_ = false;
@@ -49,7 +50,8 @@ class RingSurvey {
   std::optional<PointField> field_;  ///< of the current cloud
   std::vector<Mean> rings_;
   std::vector<float> elevations_;  ///< of the first points [rad]
-  bool other_numbers_ = false;     ///< the source has numbers that no ring has
+  std::optional<double> number_;   ///< of the first point
+  bool other_numbers_ = false;     ///< a point has another number
 };
 
 }  // namespace aims

@@ -10,6 +10,13 @@ namespace aims {
 namespace {
 
 constexpr std::size_t kMaxPairs = 1000;
+constexpr double kSameDistance = 0.01;  ///< [m]
+constexpr double kSameAngle = 0.02;     ///< [rad]
+
+bool differ(const Pose& a, const Pose& b) {
+  return (a.translation - b.translation).norm() > kSameDistance ||
+         a.rotation.angularDistance(b.rotation) > kSameAngle;
+}
 
 }  // namespace
 
@@ -24,9 +31,19 @@ bool FrameTree::add(std::string_view parent, std::string_view child, const Pose&
   const double norm = T_parent_child.rotation.norm();
   if (from == to || from.empty() || to.empty() || pairs_ >= kMaxPairs) return false;
   if (!T_parent_child.translation.allFinite() || !(norm > 0.5) || !(norm < 2.0)) return false;
-  if (neighbours_[from].contains(to)) return true;
   Pose pose = T_parent_child;
   if (is_off_unit(pose.rotation)) pose.rotation.normalize();
+  const std::pair<std::string, std::string> pair(from, to);
+  if (const auto before = neighbours_.find(from);
+      before != neighbours_.end() && before->second.contains(to)) {
+    if (differ(before->second.at(to), pose))
+      others_.insert_or_assign(pair, Other{pose, {from, to}});
+    return true;
+  }
+  // A second chain between two frames.
+  if (const auto joined = transform(from, to); joined && differ(*joined, pose)) {
+    others_.insert_or_assign(pair, Other{*joined, chain(from, to)});
+  }
   neighbours_[from][to] = pose;
   neighbours_[to][from] = pose.inverse();
   ++pairs_;
@@ -70,6 +87,22 @@ std::optional<Pose> FrameTree::transform(std::string_view from, std::string_view
     total = total ? *total * step : step;
   }
   return total.value_or(Pose{});
+}
+
+std::optional<FrameTree::Contradiction> FrameTree::contradiction(std::string_view from,
+                                                                 std::string_view to) const {
+  const std::vector<std::string> frames = chain(from, to);
+  const auto joins = [&frames](const std::string& frame) {
+    return std::ranges::find(frames, frame) != frames.end();
+  };
+  for (const auto& [pair, other] : others_) {
+    if (std::ranges::count_if(other.frames, joins) < 2) continue;
+    const Pose used = *transform(pair.first, pair.second);
+    const double distance = (used.translation - other.pose.translation).norm();
+    return Contradiction{pair.first, pair.second, distance,
+                         used.rotation.angularDistance(other.pose.rotation)};
+  }
+  return std::nullopt;
 }
 
 }  // namespace aims

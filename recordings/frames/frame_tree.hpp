@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/lie.hpp"
@@ -32,6 +33,14 @@ class FrameTree {
   /// The frames of that chain, both ends included; empty when there is none.
   std::vector<std::string> chain(std::string_view from, std::string_view to) const;
 
+  /// What contradicts that chain: two frames of it that are joined in another way too.
+  struct Contradiction {
+    std::string from, to;
+    double distance = 0.0;  ///< [m]
+    double angle = 0.0;     ///< [rad]
+  };
+  std::optional<Contradiction> contradiction(std::string_view from, std::string_view to) const;
+
  private:
   /// The name without the leading slash of old drivers.
   static std::string plain(std::string_view frame);
@@ -39,6 +48,11 @@ class FrameTree {
   /// Poses of the neighbours in each frame.
   std::map<std::string, std::map<std::string, Pose>> neighbours_;
   std::size_t pairs_ = 0;
+  struct Other {
+    Pose pose;                        ///< of the pair, by another message or chain
+    std::vector<std::string> frames;  ///< of that chain and the pair
+  };
+  std::map<std::pair<std::string, std::string>, Other> others_;  ///< that differ, by pair
 };
 
 }  // namespace aims

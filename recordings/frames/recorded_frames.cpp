@@ -22,6 +22,16 @@ Pose pose_of(const ExtrinsicConfig& configured) {
   return {rotation_of_rpy(rpy.x(), rpy.y(), rpy.z()), configured.translation};
 }
 
+void warn_of(const std::optional<FrameTree::Contradiction>& found, std::string_view how,
+             ReadingNotes& notes) {
+  if (!found) return;
+  notes.warn(fmt::format("tf contradicts itself: {} -> {}", found->from, found->to),
+             fmt::format("tf {} {} -> {}, {:.3g} m and {:.3g} deg apart: the first is used (set "
+                         "T_imu_lidar or T_imu_base)",
+                         how, found->from, found->to, found->distance,
+                         found->angle * (180.0 / std::numbers::pi)));
+}
+
 }  // namespace
 
 void RecordedFrames::add(const MessageView& message, bool fixed) {
@@ -33,8 +43,12 @@ void RecordedFrames::add(const MessageView& message, bool fixed) {
 std::optional<Pose> RecordedFrames::find(const std::string& from, const std::string& to,
                                          ReadingNotes& notes) const {
   if (from.empty() || to.empty()) return std::nullopt;
-  if (auto pose = fixed_.transform(from, to)) return pose;
+  if (auto pose = fixed_.transform(from, to)) {
+    warn_of(fixed_.contradiction(from, to), "states two poses of", notes);
+    return pose;
+  }
   auto pose = all_.transform(from, to);
+  warn_of(all_.contradiction(from, to), "moves", notes);
   if (pose) {
     notes.push_back(fmt::format("{}: from /tf at the start, assumed fixed",
                                 fmt::join(all_.chain(from, to), " -> ")));

@@ -22,6 +22,7 @@ constexpr double kMaxOffset = 0.5;             ///< between record time and stam
 constexpr double kMaxOffsetDifference = 0.15;  ///< [s]
 constexpr double kMaxClockOffset = 0.015;      ///< above what averaging over a sample causes [s]
 constexpr double kMinStaticInterval = 2.0;     ///< [s]
+constexpr double kLastSample = 0.1;            ///< an interval ends with its last sample [s]
 constexpr double kGravity = 9.81;              ///< [m/s^2]
 constexpr double kMaxForceError = 0.3;         ///< of a static accelerometer from gravity [m/s^2]
 constexpr double kMinImuRate = 100.0;          ///< [Hz]
@@ -209,7 +210,7 @@ void warn_of_imu(const BagInfo& info, const ImuInfo& imu, std::vector<std::strin
   }
   const bool disordered = topic && topic->recorder_step_s > 0.0;  // the interval is cut
   if (!disordered && (!imu.static_interval || imu.static_interval->begin_s > 1.0 ||
-                      imu.static_interval->length_s < kMinStaticInterval)) {
+                      imu.static_interval->length_s < kMinStaticInterval - kLastSample)) {
     out.push_back(
         fmt::format("{}: the robot is not static for {:.0f} s at the start; tilt and gyro bias are "
                     "then uncertain: let it stand before it walks",

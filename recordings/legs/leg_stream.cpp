@@ -14,7 +14,8 @@ constexpr double kLevellingRate = 1.0;  ///< correction of an integrated attitud
 constexpr double kMaxStep = 0.5;        ///< longest step that is integrated [s]
 constexpr double kMaxTwist = 1000.0;    ///< [m/s], [rad/s]
 constexpr Duration kMaxContactAge = kSecond / 5;
-constexpr std::size_t kRecentContacts = 64;
+constexpr std::size_t kRecentContacts = 512;
+constexpr std::size_t kMostWaiting = 512;  ///< joints
 
 /// Whether the feet in contact state velocities of the base that no slip explains.
 bool disagree(const std::vector<Eigen::Vector3d>& velocities) {
@@ -60,7 +61,8 @@ void LegStream::attach(LegOdometrySample& sample) const {
     if (joints_->velocity) sample.joint_velocity = *joints_->velocity;
   }
   if (contacts_ && same_instant(contacts_->stamp, sample.stamp)) {
-    sample.contact = joints_ ? usable_contacts(*joints_) : contacts_->contact;
+    sample.contact =
+        joints_ ? usable_contacts(*joints_, *contacts_, stamp_before_) : contacts_->contact;
     sample.contact_force = contacts_->force;
   }
 }
@@ -85,8 +87,24 @@ void LegStream::fill_twist(LegOdometrySample& sample, EventCounts& counts) {
   sample.angular_velocity = turned / step;
 }
 
+/// A driver that leaves the pose empty: it is that of the twist.
+void LegStream::fill_pose(LegOdometrySample& sample, EventCounts& counts) {
+  constexpr double kMoved = 0.1;  // by the twist, while the pose is the same [m]
+  const Eigen::Vector3d position = sample.T_odom_base.translation;
+  if (!first_position_) first_position_ = position;
+  pose_moves_ = pose_moves_ || (!pose_by_twist_ && position != *first_position_);
+  if (pose_moves_) return;
+  LegOdometrySample moved = sample;
+  integrate(moved);
+  pose_by_twist_ = pose_by_twist_ || moved.T_odom_base.translation.norm() > kMoved;
+  if (!pose_by_twist_) return;
+  ++counts["legs_pose_by_twist"];
+  sample.T_odom_base = moved.T_odom_base;
+}
+
 LegOdometrySample LegStream::add_odometry(LegOdometrySample sample, EventCounts& counts) {
   fill_twist(sample, counts);
+  fill_pose(sample, counts);
   attach(sample);
   if (twist_check_.add(sample)) ++counts["legs_twist_in_odometry_axes_seconds"];
   return sample;
@@ -124,10 +142,25 @@ void LegStream::integrate(LegOdometrySample& sample) {
   sample.T_odom_base = T_odom_base_;
 }
 
+/// Whether there are no rates, or a driver has filled in none: not finite, or all zero from the
+/// start on while the angles change.
+bool LegStream::lacks_rates(const JointReading& reading) const {
+  if (!reading.velocity) return true;
+  const auto& rates = *reading.velocity;
+  if (!std::ranges::all_of(rates, [](double each) { return std::isfinite(each); })) return true;
+  return !rates_seen_ && joints_ && joints_->position != reading.position;
+}
+
 /// Rates from the angles of the last message, if none are recorded.
-void LegStream::differentiate(JointReading& reading) {
+void LegStream::differentiate(JointReading& reading, EventCounts& counts) {
   if (joints_) stamp_before_ = joints_->stamp;
-  if (reading.velocity || !joints_) return;
+  const auto is_rate = [](double each) { return std::isfinite(each) && each != 0.0; };
+  rates_seen_ =
+      rates_seen_ || (reading.velocity && std::ranges::any_of(*reading.velocity, is_rate));
+  if (!lacks_rates(reading)) return;
+  if (reading.velocity) ++counts["joint_rates_empty"];
+  reading.velocity.reset();
+  if (!joints_) return;
   const double step = to_seconds(reading.stamp - joints_->stamp);
   if (!(step > 0.0) || step > kMaxStep) return;
   reading.velocity.emplace();
@@ -137,40 +170,56 @@ void LegStream::differentiate(JointReading& reading) {
   }
 }
 
+/// The last contacts of that instant or before it; else the first ones.
+const ContactReading* LegStream::contacts_at(Time stamp) const {
+  const ContactReading* found = nullptr;
+  for (const ContactReading& each : recent_contacts_) {
+    if (each.stamp > stamp + config_.half_period) continue;
+    if (found == nullptr || each.stamp >= found->stamp) found = &each;
+  }
+  if (found == nullptr && !recent_contacts_.empty()) return &recent_contacts_.front();
+  return found;
+}
+
 /// The feet in contact whose rates are of that contact: a difference to an angle before touchdown
 /// is not.
-std::array<bool, kLegCount> LegStream::usable_contacts(const JointReading& joints) const {
-  std::array<bool, kLegCount> contact = contacts_->contact;
+std::array<bool, kLegCount> LegStream::usable_contacts(const JointReading& joints,
+                                                       const ContactReading& contacts,
+                                                       Time stamp_before) const {
+  std::array<bool, kLegCount> contact = contacts.contact;
   if (!joints.differenced) return contact;
   std::array<bool, kLegCount> before{};
   for (const ContactReading& each : recent_contacts_) {
-    if (each.stamp <= stamp_before_ + config_.half_period) before = each.contact;
+    if (each.stamp <= stamp_before + config_.half_period) before = each.contact;
   }
   for (std::size_t leg = 0; leg < contact.size(); ++leg) contact[leg] = contact[leg] && before[leg];
   return contact;
 }
 
 /// Whether gyro and contacts are known; otherwise what is missing is counted.
-bool LegStream::has_contacts_at(Time stamp, EventCounts& counts) const {
-  if (!imu_ || !contacts_) return ++counts["legs_incomplete"], false;
-  if (stamp - contacts_->stamp > kMaxContactAge) return ++counts["legs_without_contacts"], false;
+bool LegStream::has_contacts(const std::optional<ImuSample>& imu, const ContactReading* contacts,
+                             Time stamp, EventCounts& counts) {
+  if (!imu || contacts == nullptr) return ++counts["legs_incomplete"], false;
+  if (stamp - contacts->stamp > kMaxContactAge) return ++counts["legs_without_contacts"], false;
   return true;
 }
 
 /// Velocity of the base by leg kinematics: the mean over the feet in contact, or the last value
 /// without contacts.
-std::optional<LegOdometrySample> LegStream::forward_kinematics(const JointReading& joints,
+std::optional<LegOdometrySample> LegStream::forward_kinematics(const WaitingJoints& waiting,
                                                                EventCounts& counts) {
-  joints_wait_ = false;
+  const JointReading& joints = waiting.reading;
   if (!joints.velocity) return ++counts["legs_incomplete"], std::nullopt;
-  if (!has_contacts_at(joints.stamp, counts)) return std::nullopt;
+  const ContactReading* contacts = contacts_at(joints.stamp);
+  if (!has_contacts(waiting.imu, contacts, joints.stamp, counts)) return std::nullopt;
   LegOdometrySample sample;
   sample.stamp = joints.stamp;
   sample.joint_position = joints.position;
   sample.joint_velocity = *joints.velocity;
-  sample.contact = usable_contacts(joints);
-  sample.contact_force = contacts_->force;
-  sample.angular_velocity = config_.T_body_base.rotation.conjugate() * imu_->angular_velocity;
+  sample.contact = usable_contacts(joints, *contacts, waiting.before);
+  sample.contact_force = contacts->force;
+  sample.angular_velocity =
+      config_.T_body_base.rotation.conjugate() * waiting.imu->angular_velocity;
   std::vector<Eigen::Vector3d> velocities;
   for (int leg = 0; leg < kLegCount; ++leg) {
     if (!sample.contact[static_cast<std::size_t>(leg)]) continue;
@@ -190,9 +239,14 @@ std::optional<LegOdometrySample> LegStream::forward_kinematics(const JointReadin
 
 /// The speeds of feet that have none, and the contacts of which they are: a difference over
 /// touchdown is no speed of a foot that stands.
-bool LegStream::difference_feet(FeetReading& reading, std::array<bool, kLegCount>& contact) {
+bool LegStream::difference_feet(FeetReading& reading, std::array<bool, kLegCount>& contact,
+                                EventCounts& counts) {
   const auto before = std::exchange(feet_, std::pair(reading, contact));
-  if (reading.has_velocity) return true;
+  const auto is_zero = [](const Eigen::Vector3d& each) { return each.isZero(0.0); };
+  speeds_seen_ = speeds_seen_ || !std::ranges::all_of(reading.velocity, is_zero);
+  const bool empty = !speeds_seen_ && before && before->first.position != reading.position;
+  if (reading.has_velocity && !empty) return true;
+  if (reading.has_velocity) ++counts["joint_rates_empty"];
   const double step = before ? to_seconds(reading.stamp - before->first.stamp) : 0.0;
   if (!(step > 0.0) || step > kMaxStep) return false;
   for (std::size_t leg = 0; leg < contact.size(); ++leg) {
@@ -203,11 +257,14 @@ bool LegStream::difference_feet(FeetReading& reading, std::array<bool, kLegCount
 }
 
 std::optional<LegOdometrySample> LegStream::add_feet(FeetReading reading, EventCounts& counts) {
-  if (!has_contacts_at(reading.stamp, counts)) return std::nullopt;
+  if (!has_contacts(imu_, contacts_ ? &*contacts_ : nullptr, reading.stamp, counts)) {
+    return std::nullopt;
+  }
   LegOdometrySample sample;
   sample.stamp = reading.stamp;
   sample.contact = contacts_->contact;
-  if (!difference_feet(reading, sample.contact)) return ++counts["legs_incomplete"], std::nullopt;
+  if (!difference_feet(reading, sample.contact, counts))
+    return ++counts["legs_incomplete"], std::nullopt;
   sample.angular_velocity = config_.T_body_base.rotation.conjugate() * imu_->angular_velocity;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   int feet = 0;
@@ -235,20 +292,16 @@ std::optional<LegOdometrySample> LegStream::finish(LegOdometrySample sample,
 }
 
 std::optional<LegOdometrySample> LegStream::add_joints(JointReading reading, EventCounts& counts) {
-  differentiate(reading);
-  if (config_.source != LegSource::kKinematics) {
-    joints_ = std::move(reading);
-    return std::nullopt;
+  // No rate is a difference to angles of the same stamp.
+  if (joints_ && reading.stamp == joints_->stamp && lacks_rates(reading)) {
+    return ++counts["joints_stamp_repeated"], std::nullopt;
   }
-  std::optional<LegOdometrySample> sample;
-  if (joints_wait_)
-    sample = forward_kinematics(*joints_, counts);  // without contacts of the same instant
+  differentiate(reading, counts);
+  if (config_.source == LegSource::kKinematics) {
+    waiting_.push_back({reading, imu_, stamp_before_});
+  }
   joints_ = std::move(reading);
-  joints_wait_ = true;
-  if (sample) return sample;
-  if (contacts_ && same_instant(contacts_->stamp, joints_->stamp))
-    return forward_kinematics(*joints_, counts);
-  return std::nullopt;
+  return next(counts);
 }
 
 std::optional<LegOdometrySample> LegStream::add_contacts(const ContactReading& reading,
@@ -256,9 +309,26 @@ std::optional<LegOdometrySample> LegStream::add_contacts(const ContactReading& r
   contacts_ = reading;
   recent_contacts_.push_back(reading);
   if (recent_contacts_.size() > kRecentContacts) recent_contacts_.pop_front();
-  if (config_.source != LegSource::kKinematics || !joints_wait_) return std::nullopt;
-  if (!same_instant(reading.stamp, joints_->stamp)) return std::nullopt;
-  return forward_kinematics(*joints_, counts);
+  return next(counts);
+}
+
+/// Whether contacts of the instant of these joints are there, or are no longer waited for.
+bool LegStream::is_due(const JointReading& joints) const {
+  if (contacts_ && same_instant(contacts_->stamp, joints.stamp)) return true;
+  const bool passed = contacts_ && contacts_->stamp > joints.stamp;
+  const bool last = waiting_.size() == 1;
+  const Duration waited = waiting_.back().reading.stamp - joints.stamp;
+  return passed || waiting_.size() > kMostWaiting ||
+         (!last && std::abs(waited) >= config_.contact_wait);
+}
+
+std::optional<LegOdometrySample> LegStream::next(EventCounts& counts) {
+  while (!waiting_.empty() && is_due(waiting_.front().reading)) {
+    const WaitingJoints waiting = std::move(waiting_.front());
+    waiting_.pop_front();
+    if (auto sample = forward_kinematics(waiting, counts)) return sample;
+  }
+  return std::nullopt;
 }
 
 }  // namespace aims

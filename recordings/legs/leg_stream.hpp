@@ -32,6 +32,8 @@ enum class LegSource { kNone, kOdometry, kTwist, kKinematics, kFeet };
 struct LegStreamConfig {
   LegSource source = LegSource::kNone;
   Duration half_period = 0;  ///< messages no farther apart than this belong to one instant
+  /// Joints wait so long for contacts of their instant that arrive later, by their own stamps.
+  Duration contact_wait = 0;
   Pose T_body_base;
   LegGeometry geometry;
   FootModel foot_model = FootModel::kPoint;
@@ -51,20 +53,35 @@ class LegStream {
   /// Feet without joints; contacts of the same instant come first.
   std::optional<LegOdometrySample> add_feet(FeetReading reading, EventCounts& counts);
   std::optional<LegOdometrySample> add_contacts(const ContactReading& reading, EventCounts& counts);
+  /// A further sample that the last call of these completed: of joints that waited with others.
+  std::optional<LegOdometrySample> next(EventCounts& counts);
 
  private:
+  /// Joints of an instant whose contacts may still come.
+  struct WaitingJoints {
+    JointReading reading;
+    std::optional<ImuSample> imu;  ///< the last one when they came
+    Time before = 0;               ///< stamp of the joints before them
+  };
   bool same_instant(Time a, Time b) const;
   void attach(LegOdometrySample& sample) const;
   void fill_twist(LegOdometrySample& sample, EventCounts& counts);
   void integrate(LegOdometrySample& sample);
-  void differentiate(JointReading& reading);
-  bool difference_feet(FeetReading& reading, std::array<bool, kLegCount>& contact);
-  std::array<bool, kLegCount> usable_contacts(const JointReading& joints) const;
-  std::optional<LegOdometrySample> forward_kinematics(const JointReading& joints,
+  void fill_pose(LegOdometrySample& sample, EventCounts& counts);
+  bool lacks_rates(const JointReading& reading) const;
+  void differentiate(JointReading& reading, EventCounts& counts);
+  bool difference_feet(FeetReading& reading, std::array<bool, kLegCount>& contact,
+                       EventCounts& counts);
+  const ContactReading* contacts_at(Time stamp) const;
+  bool is_due(const JointReading& joints) const;
+  std::array<bool, kLegCount> usable_contacts(const JointReading& joints,
+                                              const ContactReading& contacts, Time before) const;
+  std::optional<LegOdometrySample> forward_kinematics(const WaitingJoints& waiting,
                                                       EventCounts& counts);
   std::optional<LegOdometrySample> finish(LegOdometrySample sample, const Eigen::Vector3d& sum,
                                           int feet, EventCounts& counts);
-  bool has_contacts_at(Time stamp, EventCounts& counts) const;
+  static bool has_contacts(const std::optional<ImuSample>& imu, const ContactReading* contacts,
+                           Time stamp, EventCounts& counts);
   std::optional<Eigen::Vector3d> up_in_base() const;
 
   LegStreamConfig config_;
@@ -76,8 +93,12 @@ class LegStream {
   std::optional<ContactReading> contacts_;
   std::deque<ContactReading> recent_contacts_;     ///< in the order of the recording
   Time stamp_before_ = 0;                          ///< of the joints before the last ones
-  bool joints_wait_ = false;                       ///< for contacts of the same instant
+  std::deque<WaitingJoints> waiting_;              ///< for contacts of the same instant
   std::optional<std::pair<Time, Pose>> odometry_;  ///< the last one
+  std::optional<Eigen::Vector3d> first_position_;  ///< of the odometry
+  bool pose_moves_ = false, pose_by_twist_ = false;
+  bool rates_seen_ = false;   ///< of joints, other than 0
+  bool speeds_seen_ = false;  ///< of feet, likewise
   std::optional<Time> integrated_;
   Pose T_odom_base_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< from the last feet in contact [m/s]

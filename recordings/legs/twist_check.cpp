@@ -6,11 +6,12 @@
 namespace aims {
 namespace {
 
-constexpr double kWindow = 1.0;            ///< [s]
-constexpr double kMaxStep = 0.1;           ///< a longer gap restarts the window [s]
-constexpr double kMinDistance = 0.2;       ///< shortest displacement of a window that is tested [m]
-constexpr double kMinRejectedError = 0.5;  ///< relative error of the rejected axes, at least
-constexpr double kMaxAcceptedError = 0.2;  ///< relative error of the accepted axes, at most
+constexpr double kWindow = 1.0;       ///< [s]
+constexpr double kMaxStep = 0.1;      ///< a longer gap restarts the window [s]
+constexpr double kMinDistance = 0.2;  ///< shortest displacement of a window that is tested [m]
+constexpr double kMinRejectedError = 0.15;  ///< relative error of the rejected axes, at least
+constexpr double kMaxAcceptedError = 0.2;   ///< relative error of the accepted axes, at most
+constexpr double kMinRatio = 3.0;           ///< of both
 
 }  // namespace
 
@@ -28,9 +29,11 @@ bool TwistCheck::add(const LegOdometrySample& sample) {
   if (to_seconds(sample.stamp - start_->stamp) < kWindow) return false;
   const Eigen::Vector3d moved = sample.T_odom_base.translation - start_->T_odom_base.translation;
   const double length = moved.norm();
-  const bool in_odometry_axes = length > kMinDistance &&
-                                (by_base_axes_ - moved).norm() > kMinRejectedError * length &&
-                                (by_odometry_axes_ - moved).norm() < kMaxAcceptedError * length;
+  const double by_base = (by_base_axes_ - moved).norm();
+  const double by_odometry = (by_odometry_axes_ - moved).norm();
+  const bool in_odometry_axes = length > kMinDistance && by_base > kMinRejectedError * length &&
+                                by_odometry < kMaxAcceptedError * length &&
+                                by_base > kMinRatio * by_odometry;
   start_ = sample;
   by_base_axes_.setZero();
   by_odometry_axes_.setZero();

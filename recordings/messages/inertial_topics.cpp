@@ -11,14 +11,18 @@ namespace {
 // Longer words first: their whole text is left out of the name.
 constexpr std::array<std::string_view, 3> kGyro = {"angular_velocity", "gyroscope", "gyro"};
 constexpr std::array<std::string_view, 5> kAccelerometer = {"linear_acceleration", "accelerometer",
-                                                            "acceleration", "accel", "/acc/"};
+                                                            "acceleration", "accel", "acc"};
 
 template <std::size_t kCount>
 std::optional<std::string> without(std::string name,
                                    const std::array<std::string_view, kCount>& words) {
   for (const std::string_view word : words) {
     const std::size_t at = name.find(word);
-    if (at != std::string::npos) return name.erase(at, word.size());
+    if (at == std::string::npos) continue;
+    const std::size_t end = at + word.size();
+    // The short one is a whole part of the name, as in /imu/acc, and no account.
+    const bool whole = at > 0 && name[at - 1] == '/' && (end == name.size() || name[end] == '/');
+    if (word.size() > 3 || whole) return name.erase(at, word.size());
   }
   return std::nullopt;
 }

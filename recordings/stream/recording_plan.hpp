@@ -31,6 +31,8 @@ struct RecordingPlan {
   Time start = 0;                ///< earliest record time that was set
   std::optional<Time> begin;     ///< record time before which there is an IMU alone: left out
   std::array<std::optional<Duration>, kRoleCount> latency;  ///< record time minus stamp, typically
+  /// The stamps leap though the record times do not: they say nothing of when a message arrived.
+  std::array<bool, kRoleCount> leaps{};
   /// A message that is recorded earlier than its stamp and latency by more has a wrong record time.
   Duration max_early = kSecond / 2;
   Duration max_hold = 60 * kSecond;         ///< of such a message, until its stamp

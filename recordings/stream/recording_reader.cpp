@@ -22,6 +22,9 @@ namespace {
 /// Limits of one call of `advance`, for many messages at one instant.
 constexpr std::size_t kMaxDeliveries = 100'000;
 constexpr std::size_t kMaxBytes = std::size_t{256} << 20;
+/// A message that is recorded so long after its stamp and latency was recorded by a clock that
+/// leapt.
+constexpr Duration kMaxLate = 5 * kSecond;
 /// Of a stamp 0 from the time at which its message was recorded, by the clock of the sensor.
 constexpr Duration kMaxUnset = kSecond;
 constexpr std::size_t kMaxHeldBytes = std::size_t{256} << 20;
@@ -51,10 +54,12 @@ struct RecordingReader::Impl {
   Result<void> fetch();
   bool hold(const BagMessage& message, const Channel& channel, const MessageView& view);
   bool is_unset(const BagMessage& message, const Channel& channel, const MessageView& view) const;
+  Time arrival(const BagMessage& message, const Channel& channel, const MessageView& view);
   Time due(const BagMessage& message, const Channel& channel, const MessageView& view);
   void release(Time due, std::vector<Delivery>& out);
   void receive(const BagMessage& message, std::vector<Delivery>& out);
   bool is_repeated(const Channel& channel, const MessageView& view);
+  void note_frame(Role role, const MessageView& view);
   void take(const Channel& channel, const MessageView& view, std::vector<Delivery>& out);
   void watch_frame(const MessageView& view);
   void take_cloud(const MessageView& view, std::vector<Delivery>& out);
@@ -85,6 +90,7 @@ struct RecordingReader::Impl {
   Time record_time = 0;  ///< of the current message
   Duration position = 0;
   std::array<std::optional<Time>, kRoleCount> last_stamps;
+  std::array<std::string, kRoleCount> frames;  ///< of the first messages
   Trajectory truth;
   std::optional<Time> last_true_stamp;
   EventCounts counts;
@@ -186,15 +192,20 @@ void RecordingReader::Impl::take_joints(const MessageView& view, std::vector<Del
   if (!joints) return malformed(Role::kJoints);
   joints->stamp = stamp_of(Role::kJoints, joints->stamp, config.leg_delay);
   deliver(legs.add_joints(std::move(*joints), counts), out);
+  while (auto more = legs.next(counts)) deliver(std::move(more), out);
 }
 
 void RecordingReader::Impl::take_contacts(const MessageView& view, std::vector<Delivery>& out) {
   const auto loads = loads_at(view, plan.contacts);
   if (!loads) return malformed(Role::kContacts);
-  const Time stamp = header_stamp(view, record_time);
+  // Without a stamp they are as old as joints that arrive with them.
+  const auto joints = plan.latency[static_cast<std::size_t>(Role::kJoints)];
+  const Time stamp =
+      recorded_stamp(view) ? header_stamp(view, record_time) : record_time - joints.value_or(0);
   const ContactReading contacts = {stamp_of(Role::kContacts, stamp, config.leg_delay),
                                    contact_detector.detect(*loads), forces_at(view, plan.contacts)};
   deliver(legs.add_contacts(contacts, counts), out);
+  while (auto more = legs.next(counts)) deliver(std::move(more), out);
 }
 
 void RecordingReader::Impl::take_truth(const MessageView& view) {
@@ -220,6 +231,15 @@ bool RecordingReader::Impl::is_repeated(const Channel& channel, const MessageVie
   return filter->second.repeats(header_stamp(view, record_time), sample_numbers(view, channel));
 }
 
+/// Counts messages of another frame than the first one of their topic, whose place they have.
+void RecordingReader::Impl::note_frame(Role role, const MessageView& view) {
+  const std::string_view frame = view.text("header.frame_id").value_or("");
+  if (frame.empty()) return;
+  std::string& first = frames[static_cast<std::size_t>(role)];
+  if (first.empty()) first = frame;
+  if (frame != first) ++counts[std::string(name_of(role)) + "_of_another_frame"];
+}
+
 void RecordingReader::Impl::take(const Channel& channel, const MessageView& view,
                                  std::vector<Delivery>& out) {
   if (is_repeated(channel, view)) {
@@ -227,6 +247,9 @@ void RecordingReader::Impl::take(const Channel& channel, const MessageView& view
     return;
   }
   if (channel.is(Role::kTruth)) take_truth(view);
+  for (const Role role : {Role::kLidar, Role::kImu}) {
+    if (channel.is(role)) note_frame(role, view);
+  }
   if (channel.is(Role::kLidar)) take_cloud(view, out);
   if (channel.is(Role::kImu)) take_imu(view, out);
   // Contacts first, where one message holds both: the joints then find those of their instant.
@@ -256,13 +279,28 @@ Time RecordingReader::Impl::due(const BagMessage& message, const Channel& channe
   if (serves == channel.serves.end()) return recorded;
   const auto role = static_cast<std::size_t>(serves - channel.serves.begin());
   const auto stamp = view.time("header.stamp");
-  if (!stamp || !plan.latency[role]) return recorded + plan.wait[role];
+  if (!stamp || !plan.latency[role] || plan.leaps[role]) return recorded + plan.wait[role];
   const Duration early = *stamp + *plan.latency[role] - recorded;
   const bool unset = recorded < kSetRecordTime && plan.start > kSetRecordTime;
   if (early < plan.max_early || (early > plan.max_hold && !unset))
     return recorded + plan.wait[role];
   ++counts["recorded_before_their_stamp"];
   return recorded + early + plan.wait[role];
+}
+
+/// When a message was recorded. Where the recorder's clock was set forward, that is the usual
+/// latency after its stamp; arrivals never go back.
+Time RecordingReader::Impl::arrival(const BagMessage& message, const Channel& channel,
+                                    const MessageView& view) {
+  const auto* const serves = std::ranges::find(channel.serves, true);
+  if (serves == channel.serves.end()) return message.record_time;
+  const auto role = static_cast<std::size_t>(serves - channel.serves.begin());
+  const auto stamp = view.time("header.stamp");
+  if (!stamp || !plan.latency[role] || plan.leaps[role]) return message.record_time;
+  const Duration late = message.record_time - (*stamp + *plan.latency[role]);
+  if (late < kMaxLate) return message.record_time;
+  ++counts["recorded_long_after_their_stamp"];
+  return std::max(record_time, message.record_time - late);
 }
 
 /// Keeps a message that is not yet due.
@@ -288,20 +326,23 @@ void RecordingReader::Impl::release(Time due, std::vector<Delivery>& out) {
   }
 }
 
-void RecordingReader::Impl::receive(const BagMessage& message, std::vector<Delivery>& out) {
-  release(message.record_time, out);
-  record_time = message.record_time;
-  position = std::max(position, record_time - plan.start);
+void RecordingReader::Impl::receive(const BagMessage& given, std::vector<Delivery>& out) {
+  BagMessage message = given;
   const Channel* channel = channels.find(message);
   if (channel == nullptr) return;
   const auto view = channel->decoder.decode(message.data);
+  const bool unset = view && is_unset(given, *channel, *view);
+  if (view && !unset) message.record_time = arrival(message, *channel, *view);
+  release(message.record_time, out);
+  record_time = message.record_time;
+  position = std::max(position, record_time - plan.start);
   if (!view) {
     for (std::size_t i = 0; i < kRoleCount; ++i) {
       if (channel->serves[i]) malformed(static_cast<Role>(i));
     }
     return;
   }
-  if (is_unset(message, *channel, *view)) {
+  if (unset) {
     ++counts["stamp_not_set"];
     return;
   }

@@ -11,6 +11,7 @@
 #include "recordings/median.hpp"
 #include "recordings/messages/message_types.hpp"
 #include "recordings/stream/gravity_unit.hpp"
+#include "recordings/stream/motion_window.hpp"
 #include "recordings/stream/record_clock.hpp"
 
 namespace aims {
@@ -101,6 +102,12 @@ void RecordingSurvey::add_imu(const MessageView& view) {
   const auto sample = imu_at(view, 0, ignored);
   if (!sample || !sample->specific_force.allFinite()) return;
   if (!sample->angular_velocity.allFinite()) return;
+  if (!first_samples_.empty()) {
+    const ImuSample& first = first_samples_.front();
+    gyro_changes_ = gyro_changes_ || sample->angular_velocity != first.angular_velocity;
+    force_changes_ = force_changes_ || sample->specific_force != first.specific_force;
+  }
+  if (first_samples_.size() < kMaxSamples) first_samples_.push_back(*sample);
   if (forces_.size() < kMaxSamples) forces_.push_back(sample->specific_force.norm());
   largest_turn_rate_ = std::max(largest_turn_rate_, sample->angular_velocity.norm());
   if (turn_rates_.size() < kMaxSamples) {
@@ -128,6 +135,21 @@ std::set<std::string> RecordingSurvey::unstamped_states() const {
   return types;
 }
 
+/// Warns of a specific force that is no gravity.
+void RecordingSurvey::warn_of_force(double force) {
+  if (force == 0.0 && largest_turn_rate_ == 0.0) {
+    return notes_.warn("IMU measures nothing",
+                       "gyro and accelerometer are zero in the first messages of the IMU: does it "
+                       "give its orientation alone? Estimators need both");
+  }
+  const double milligravities = force / 1000.0;
+  notes_.warn(
+      "unit of the accelerometer unknown",
+      fmt::format("specific force of {:.3g} at the start is neither gravity in m/s^2 nor in "
+                  "g{}: assumed to be m/s^2 (imu_unit)",
+                  force, is_in_gravities(milligravities) ? ", but it is in mg" : ""));
+}
+
 /// The unit of the accelerometer, which gravity gives away.
 void RecordingSurvey::decide_force_unit(RecordingPlan& plan) {
   ReadingNotes& notes = notes_;
@@ -144,12 +166,7 @@ void RecordingSurvey::decide_force_unit(RecordingPlan& plan) {
                            force, mean));
   } else if (config_.imu_unit == ImuUnit::kAuto && !forces_.empty()) {
     gravities = is_in_gravities(force);
-    if (!gravities && (force < 5.0 || force > 15.0)) {
-      notes.warn("unit of the accelerometer unknown",
-                 fmt::format("specific force of {:.3g} at the start is neither gravity in m/s^2 "
-                             "nor in g: assumed to be m/s^2 (imu_unit)",
-                             force));
-    }
+    if (!gravities && (force < 5.0 || force > 15.0)) warn_of_force(force);
   }
   if (gravities) {
     plan.force_scale = kStandardGravity;
@@ -177,14 +194,45 @@ void RecordingSurvey::decide_imu(RecordingPlan& plan) {
     plan.turn_scale = std::numbers::pi / 180.0;
     notes.push_back("angular velocity in deg/s (recording.gyro_unit): converted to rad/s");
   }
+  warn_of_gyro(plan);
+}
+
+/// Warns of a gyro whose numbers no robot turns by.
+void RecordingSurvey::warn_of_gyro(const RecordingPlan& plan) {
   const double turning = plan.turn_scale * upper_median(turn_rates_).value_or(0.0);
   const double fastest = plan.turn_scale * largest_turn_rate_;
+  constexpr std::size_t kLeast = 100;  // samples
+  if (first_samples_.size() >= kLeast && !gyro_changes_ && force_changes_) {
+    const Eigen::Vector3d rate = first_samples_.front().angular_velocity;
+    notes_.warn("gyroscope does not measure",
+                fmt::format("angular velocity is ({:.3g}, {:.3g}, {:.3g}) in all {} samples while "
+                            "the specific force changes: the gyro is off or not filled in",
+                            rate.x(), rate.y(), rate.z(), first_samples_.size()));
+  }
   if (fastest > kMaxTurnRate || turning > kFastTurning) {
-    notes.warn("gyroscope perhaps in deg/s",
-               fmt::format("angular velocity up to {:.3g}, {:.3g} in the median: rad/s are "
-                           "expected, are these deg/s? Then set recording.gyro_unit=deg/s (of a "
-                           "table: gyro_unit of its mapping)",
-                           fastest, turning));
+    notes_.warn("gyroscope perhaps in deg/s",
+                fmt::format("angular velocity up to {:.3g}, {:.3g} in the median: rad/s are "
+                            "expected, are these deg/s? Then set recording.gyro_unit=deg/s (of a "
+                            "table: gyro_unit of its mapping)",
+                            fastest, turning));
+  }
+}
+
+/// Warns of a robot that does not stand for the first two seconds.
+void RecordingSurvey::warn_of_motion(const RecordingPlan& plan) {
+  if (first_samples_.empty()) return;
+  MotionWindow window;
+  for (const ImuSample& each : first_samples_) {
+    const Duration since = each.stamp - first_samples_.front().stamp;
+    if (since < 0 || since >= 2 * kSecond) break;
+    if (window.length_to(each.stamp) >= kSecond) window = {};
+    window.add(each.stamp, plan.turn_scale * each.angular_velocity,
+               plan.force_scale * each.specific_force);
+    if (window.length_to(each.stamp) < kSecond * 9 / 10 || !window.moves()) continue;
+    notes_.warn("robot moves at the start",
+                "the robot moves in the first two seconds, in which it is taken to stand: tilt, "
+                "velocity and gyro bias are then wrong; begin the recording before it walks");
+    return;
   }
 }
 
@@ -212,6 +260,8 @@ void RecordingSurvey::decide_legs(RecordingPlan& plan) {
   adopt_rate(plan.setup.leg_rate_hz, "leg odometry", plan.setup.rig.leg_rate_hz, notes_);
   const double rate = plan.setup.leg_rate_hz.value_or(100.0);
   stream.half_period = from_seconds(std::clamp(0.5 / rate, 1e-9, 0.5));
+  const Duration late = contact_lateness(plan);
+  if (late > stream.half_period) stream.contact_wait = 2 * late;
 }
 
 std::string RecordingSurvey::imu_frame() const {
@@ -243,7 +293,9 @@ void RecordingSurvey::decide_frames(RecordingPlan& plan) {
   RecordingSetup& setup = plan.setup;
   const std::string lidar =
       config_.lidar_frame.empty() ? seen(Role::kLidar).frame : config_.lidar_frame;
-  if (!topics_.lidar.empty()) {
+  const bool silent =
+      !topics_.imu.empty() && topics_.imu != "none" && seen(Role::kImu).stamps.empty();
+  if (!topics_.lidar.empty() && !silent) {
     setup.rig.T_body_lidar =
         frames_.extrinsic(config_.T_imu_lidar, imu_frame(), lidar, "T_imu_lidar", notes_);
   }
@@ -325,6 +377,7 @@ Result<RecordingPlan> RecordingSurvey::decide(const std::filesystem::path& bag,
   decide_legs(plan);
   warn_of(WarnedSensor::kLegs, before_legs);
   decide_begin(plan);
+  if (!plan.begin) warn_of_motion(plan);
   decide_frames(plan);
   decide_truth(plan);
   plan.lidar_frame = seen(Role::kLidar).frame;

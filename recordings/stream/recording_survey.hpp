@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/measurements.hpp"
 #include "recordings/clouds/cloud_survey.hpp"
 #include "recordings/frames/recorded_frames.hpp"
 #include "recordings/legs/leg_survey.hpp"
@@ -74,10 +75,22 @@ class RecordingSurvey {
     Duration back = 0;  ///< by so much
   };
   static std::optional<ClockStep> clock_step_of(const Seen& each);
+  /// A leap of latencies, which stay before and behind it.
+  struct Leap {
+    std::size_t at = 0;   ///< message
+    Time recorded = 0;    ///< when
+    Duration stamps = 0;  ///< by which stamps leap, if record times do not
+  };
+  static std::optional<Leap> leap_of(const Seen& each);
+  bool leaps_alone(Role role, const Leap& leap) const;
+  std::optional<Leap> decide_leap(Role role, RecordingPlan& plan);
+  Duration contact_lateness(const RecordingPlan& plan) const;
   static Duration latency_of(const Seen& each, const std::optional<ClockStep>& step);
   static void keep_new(Seen& each);
   static void keep(Seen& each, const std::vector<bool>& kept);
   void leave_out_unset();
+  void note_silence(Role role, const std::string& topic);
+  void note_record_times(Role role, const std::string& topic);
   void decide_repeats(RecordingPlan& plan);
   void decide_stamps(RecordingPlan& plan);
   void decide_waits(RecordingPlan& plan) const;
@@ -86,7 +99,10 @@ class RecordingSurvey {
   void warn_of(WarnedSensor sensor, std::size_t first);
   void warn_of_up(const RecordingSetup& setup);
   std::set<std::string> unstamped_states() const;
+  void warn_of_force(double force);
   void decide_force_unit(RecordingPlan& plan);
+  void warn_of_gyro(const RecordingPlan& plan);
+  void warn_of_motion(const RecordingPlan& plan);
   void decide_imu(RecordingPlan& plan);
   void decide_legs(RecordingPlan& plan);
   bool is_imu_of_base() const;
@@ -102,6 +118,8 @@ class RecordingSurvey {
   CloudSurvey clouds_;
   std::string cloud_error_;                              ///< of the first that could not be read
   std::vector<double> forces_;                           ///< norms, in the recorded unit
+  std::vector<ImuSample> first_samples_;                 ///< of the IMU, as recorded
+  bool gyro_changes_ = false, force_changes_ = false;    ///< from sample to sample
   bool oriented_ = false;                                ///< an IMU message has an orientation
   double largest_turn_rate_ = 0.0;                       ///< [rad/s]
   std::vector<double> turn_rates_;                       ///< norms [rad/s]

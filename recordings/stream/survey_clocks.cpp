@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "recordings/median.hpp"
 #include "recordings/stream/record_clock.hpp"
 #include "recordings/stream/recording_survey.hpp"
 
@@ -22,9 +23,12 @@ constexpr Duration kLongestStep = 100'000 * kSecond;  ///< a day, as of a wrong 
 constexpr Duration kMaxBetween = kSecond;             ///< of the samples before and after a step
 constexpr std::size_t kFirst = 20;  ///< messages whose latency is that before a step
 
-bool all_zero(const std::vector<Time>& stamps) {
-  return stamps.size() >= 3 &&
-         std::all_of(stamps.begin(), stamps.end(), [](Time stamp) { return stamp == 0; });
+/// Zero, or of a clock that stands still or counts whole seconds.
+bool hardly_advance(const std::vector<Time>& stamps) {
+  if (stamps.size() < 3) return false;
+  std::size_t steps = 0;
+  for (std::size_t i = 1; i < stamps.size(); ++i) steps += stamps[i] != stamps[i - 1] ? 1 : 0;
+  return steps * 5 < stamps.size();
 }
 
 /// The latency that a tenth of the messages do not reach: others were delayed.
@@ -32,6 +36,15 @@ Duration early_latency(std::vector<Duration> latencies) {
   const auto at = latencies.begin() + static_cast<std::ptrdiff_t>(latencies.size() / 10);
   std::ranges::nth_element(latencies, at);
   return *at;
+}
+
+/// Whether nearly all are much the same.
+bool is_steady(const std::vector<Duration>& latencies) {
+  const Duration usual = upper_median(latencies).value_or(0);
+  const auto odd = std::ranges::count_if(latencies, [usual](Duration latency) {
+    return std::abs(latency - usual) > kMaxLatencyDifference / 2;
+  });
+  return static_cast<std::size_t>(odd) * 20 < latencies.size();
 }
 
 /// Where configured delays differ by more, arrivals move with the stamps: estimators sort what
@@ -61,6 +74,12 @@ void RecordingSurvey::decide_waits(RecordingPlan& plan) const {
     smallest = any ? std::min(smallest, delays[i]) : delays[i];
     largest = any ? std::max(largest, delays[i]) : delays[i];
     any = true;
+  }
+  // Joints wait for contacts that arrive later, and all others with them.
+  const double late = to_seconds(contact_lateness(plan));
+  if (late > kSortedDelay) {
+    delays[static_cast<std::size_t>(Role::kContacts)] += late;
+    largest = std::max(largest, delays[static_cast<std::size_t>(Role::kContacts)]);
   }
   if (largest - smallest <= kSortedDelay || largest - smallest >= kMaxDelay) return;
   for (std::size_t i = 0; i < kRoleCount; ++i) {
@@ -109,6 +128,80 @@ Duration RecordingSurvey::latency_of(const Seen& each, const std::optional<Clock
   }
   return before.empty() ? early_latency(each.latencies) + step->back
                         : early_latency(std::move(before));
+}
+
+/// Where latencies change once for all: stamps or record times leap there.
+std::optional<RecordingSurvey::Leap> RecordingSurvey::leap_of(const Seen& each) {
+  constexpr std::size_t kLeast = 5;  // messages before and behind it
+  const auto& latencies = each.latencies;
+  if (latencies.size() < 2 * kLeast) return std::nullopt;
+  Leap leap;
+  Duration largest = kMaxLatencyDifference;
+  for (std::size_t i = kLeast; i + kLeast <= latencies.size(); ++i) {
+    const Duration step = std::abs(latencies[i] - latencies[i - 1]);
+    if (step <= largest) continue;
+    largest = step;
+    leap.at = i;
+  }
+  if (leap.at == 0) return std::nullopt;
+  const auto middle = latencies.begin() + static_cast<std::ptrdiff_t>(leap.at);
+  const Duration before = *upper_median(std::vector<Duration>(latencies.begin(), middle));
+  const Duration behind = *upper_median(std::vector<Duration>(middle, latencies.end()));
+  leap.stamps = before - behind;
+  leap.recorded = each.stamps[leap.at] + latencies[leap.at];
+  const auto strays = [](auto begin, auto end, Duration usual) {
+    return std::count_if(begin, end, [usual](Duration latency) {
+      return std::abs(latency - usual) > kMaxLatencyDifference / 2;
+    });
+  };
+  const auto odd =
+      strays(latencies.begin(), middle, before) + strays(middle, latencies.end(), behind);
+  const bool lasts = static_cast<std::size_t>(odd) * 10 < latencies.size();
+  if (!lasts || std::abs(leap.stamps) < kMaxLatencyDifference) return std::nullopt;
+  return leap;
+}
+
+/// Whether another topic goes on there as before: then it is no leap of the recorder's clock.
+bool RecordingSurvey::leaps_alone(Role role, const Leap& leap) const {
+  const std::string& topic = topic_of(topics_, role);
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    const Seen& other = seen_[i];
+    const std::string& name = topic_of(topics_, static_cast<Role>(i));
+    if (name == topic || name.empty() || other.unstamped || hardly_advance(other.stamps)) continue;
+    bool before = false, behind = false;
+    for (std::size_t k = 0; k < other.stamps.size(); ++k) {
+      const Duration after = other.stamps[k] + other.latencies[k] - leap.recorded;
+      before = before || after < 0;
+      behind = behind || after > kMaxLatencyDifference;
+    }
+    if (before && behind && is_steady(other.latencies)) return true;
+  }
+  return false;
+}
+
+/// The leap of the stamps of a topic, of which it warns.
+std::optional<RecordingSurvey::Leap> RecordingSurvey::decide_leap(Role role, RecordingPlan& plan) {
+  const auto leap = leap_of(seen(role));
+  if (!leap || seen(role).unstamped || !leaps_alone(role, *leap)) return std::nullopt;
+  const std::string& topic = topic_of(topics_, role);
+  const Time first = seen(role).stamps.front() + seen(role).latencies.front();
+  plan.leaps[static_cast<std::size_t>(role)] = true;
+  notes_.warn(fmt::format("stamps of {} leap", topic),
+              fmt::format("{}: stamps leap by {:.3f} s, {:.1f} s after its first message, while "
+                          "record times and other topics do not: what is before and behind it "
+                          "does not fit together",
+                          topic, to_seconds(leap->stamps), to_seconds(leap->recorded - first)));
+  return leap;
+}
+
+/// By how much contacts arrive later than joints of the same stamp; negative: earlier.
+Duration RecordingSurvey::contact_lateness(const RecordingPlan& plan) const {
+  const auto& joints = plan.latency[static_cast<std::size_t>(Role::kJoints)];
+  const auto& contacts = plan.latency[static_cast<std::size_t>(Role::kContacts)];
+  const bool stamped = !seen(Role::kJoints).unstamped && !seen(Role::kContacts).unstamped;
+  if (!joints || !contacts || !stamped || topics_.joint_states == topics_.contacts) return 0;
+  const Duration late = *contacts - *joints;
+  return std::abs(late) < kMaxLatencyDifference ? late : 0;
 }
 
 /// Samples that are sent again under new stamps count once.
@@ -160,6 +253,30 @@ void RecordingSurvey::leave_out_unset() {
   }
 }
 
+/// Of a topic without messages.
+void RecordingSurvey::note_silence(Role role, const std::string& topic) {
+  if (role == Role::kTruth) return;
+  if (role != Role::kImu || !topic.ends_with("/imu")) {
+    return notes_.push_back(fmt::format("{}: no message", topic));
+  }
+  notes_.warn("no message of the IMU",
+              fmt::format("{}: no message; if gyro and accelerometer are two topics, their stamps "
+                          "do not overlap",
+                          topic));
+}
+
+/// Of a topic whose stamps do not serve.
+void RecordingSurvey::note_record_times(Role role, const std::string& topic) {
+  const std::vector<Time>& stamps = seen(role).stamps;
+  if (std::ranges::count(stamps, 0) == std::ssize(stamps)) {
+    return notes_.push_back(fmt::format("{}: stamps are all zero, record times are used", topic));
+  }
+  notes_.warn(fmt::format("stamps of {} do not advance", topic),
+              fmt::format("{}: stamps do not advance from message to message (a clock that stands "
+                          "still, or whole seconds): record times are used",
+                          topic));
+}
+
 /// Clocks: stamps that were never set, and sensors with different clocks.
 void RecordingSurvey::decide_stamps(RecordingPlan& plan) {
   leave_out_unset();
@@ -176,10 +293,14 @@ void RecordingSurvey::decide_stamps(RecordingPlan& plan) {
     const std::string& topic = topic_of(topics_, role);
     if (topic.empty()) continue;
     if (seen_[i].stamps.empty()) {
-      if (role != Role::kTruth) notes_.push_back(fmt::format("{}: no message", topic));
-    } else if (all_zero(seen_[i].stamps)) {
+      note_silence(role, topic);
+    } else if (hardly_advance(seen_[i].stamps)) {
       plan.stamped_by_record[i] = true;
-      notes_.push_back(fmt::format("{}: stamps are all zero, record times are used", topic));
+      note_record_times(role, topic);
+    } else if (const auto leap = step ? std::nullopt : decide_leap(role, plan)) {
+      const auto& all = seen_[i].latencies;
+      plan.latency[i] =
+          early_latency({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(leap->at)});
     } else {
       plan.latency[i] = latency_of(seen_[i], step);
     }
@@ -222,6 +343,7 @@ void RecordingSurvey::warn_of_clocks(const RecordingPlan& plan, const std::strin
     const Role role = static_cast<Role>(i);
     const std::string& topic = topic_of(topics_, role);
     if (!plan.latency[i] || role == Role::kTruth || topic == reference) continue;
+    if (plan.leaps[i]) continue;  // no delay would correct it
     Duration behind = *plan.latency[i] + from_seconds(delay_of(config_, role)) - latency;
     // A cloud with the stamp of its start is complete, and sent, a period later.
     if (role == Role::kLidar && plan.cloud.stamp == CloudStamp::kStart) behind -= plan.cloud.period;

@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <numbers>
 #include <tuple>
+#include <utility>
 
 #include "recordings/messages/message_types.hpp"
 #include "tests/recordings/stream/recorded_deliveries.hpp"
@@ -194,6 +196,150 @@ TEST_F(CloudTimes, ARingThatIsTheSameForAllPointsIsDerivedFromElevation) {
   EXPECT_EQ(read.setup.rings.count, 3);
   const auto scans = test::scans_of(read.deliveries);
   for (std::uint16_t i = 0; i < 3; ++i) EXPECT_EQ(scans[0]->points[i].ring, i);
+}
+
+/// The bytes of a number in place of the float32 time of a point.
+void put_time(RawCloud& cloud, std::size_t point, std::uint32_t value) {
+  std::memcpy(cloud.data.data() + point * cloud.point_step + 12, &value, sizeof(value));
+}
+
+/// Clouds of ten points over 90 ms at 10 Hz whose uint32 time is a clock in ns that was `at_start`
+/// when the first one fired; those of which `unset` holds have the time 0 throughout.
+Recording read_counted(
+    const std::filesystem::path& bag, std::uint32_t at_start,
+    const std::function<bool(int)>& unset = [](int) { return false; }) {
+  std::filesystem::remove(bag);
+  RobotRecording robot(bag);
+  robot.add_transforms(kMounted);
+  robot.add_imu(kStart, 120);
+  for (int k = 0; k < 20; ++k) {
+    const Time stamp = kStart + k * 100 * kMillisecond;
+    RawCloud cloud = RawCloud::of(stamp, std::vector<std::array<float, 4>>(200, {4, 2, 1, 0}));
+    cloud.fields.back().type = 6;
+    for (std::size_t i = 0; i < 200; ++i) {
+      const auto after = static_cast<std::uint32_t>(i * 450'000);
+      const auto fired = at_start + static_cast<std::uint32_t>(k) * 100'000'000U + after;
+      put_time(cloud, i, unset(k) ? 0 : fired);
+    }
+    robot.add_cloud(cloud, stamp + 105 * kMillisecond);
+  }
+  robot.close();
+  return test::read_recording(bag);
+}
+
+TEST_F(CloudTimes, CountersSincePowerOnAreAClockWhateverTheirSizeAndBeginAgain) {
+  // Small, and 0.35 s before it passes 2^32.
+  for (const std::uint32_t at_start : {50'000'000U, 4'294'967'295U - 350'000'000U}) {
+    const Recording read = read_counted(bag(), at_start);
+    ASSERT_EQ(read.error, "");
+    EXPECT_TRUE(read.counts.empty()) << read.counts.begin()->first;
+    const auto scans = test::scans_of(read.deliveries);
+    ASSERT_EQ(scans.size(), 20U);
+    for (int k = 0; k < 20; ++k) {
+      const LidarScan& scan = *scans[static_cast<std::size_t>(k)];
+      EXPECT_EQ(scan.stamp, kStart + k * 100 * kMillisecond);
+      ASSERT_EQ(scan.points.size(), 200U);
+      EXPECT_EQ(scan.points.back().time_offset_ns, 199 * 450'000);
+    }
+  }
+}
+
+TEST_F(CloudTimes, CloudsWhosePointsHaveOneTimeAreCounted) {
+  const Recording read = read_counted(bag(), 50'000'000U, [](int k) { return k % 4 == 3; });
+  EXPECT_EQ(read.counts.at("cloud_without_times"), 5);
+}
+
+TEST_F(CloudTimes, ADirectionOfSpinShowsInFiringOrderToo) {
+  // Columns of four rings, each column counter-clockwise of the one before.
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  robot.add_imu(kStart, 30);
+  for (int k = 0; k < 4; ++k) {
+    std::vector<std::array<float, 4>> points;
+    for (int i = 0; i < 800; ++i) {
+      const double azimuth = 2.0 * std::numbers::pi * (i / 4) / 200.0;
+      const double noise = 1e-7 * (i * 37 % 11);
+      points.push_back({static_cast<float>(5.0 * std::cos(azimuth + noise)),
+                        static_cast<float>(5.0 * std::sin(azimuth + noise)),
+                        0.5F * static_cast<float>(i % 4), 0.0F});
+    }
+    RawCloud cloud = RawCloud::of(kStart + k * 100 * kMillisecond, points);
+    cloud.fields.pop_back();
+    robot.add_cloud(cloud, cloud.stamp + 105 * kMillisecond);
+  }
+  robot.close();
+  EXPECT_TRUE(test::read_recording(bag()).noted("set lidar_clockwise: false"));
+}
+
+TEST_F(CloudTimes, CloudsWithoutStampsAreRecordedAtTheEndOfTheirScan) {
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  robot.add_imu(kStart, 60);
+  for (int k = 0; k < 10; ++k) {
+    const Time end = kStart + (k + 1) * 100 * kMillisecond;
+    robot.add_cloud(RawCloud::of(0, {{4, 0, 0, 0}, {4, 0, 1, 0.05F}, {4, 0, 2, 0.1F}}), end);
+  }
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  EXPECT_TRUE(read.noted("their record times serve, as the end of the scans"));
+  const auto scans = test::scans_of(read.deliveries);
+  ASSERT_EQ(scans.size(), 10U);
+  EXPECT_EQ(scans[3]->stamp, kStart + 300 * kMillisecond);
+  EXPECT_EQ(scans[3]->end, kStart + 400 * kMillisecond);
+  EXPECT_NEAR(scans[3]->points[1].time_offset_ns, 50e6, 10.0);
+}
+
+TEST_F(CloudTimes, TimesThatAreTooLongDecideNothingElse) {
+  const Recording read = read_timed(bag(), 0.994F, 105 * kMillisecond, 0.02F);
+  EXPECT_TRUE(read.noted("spans 0.974 s, but a cloud comes every 0.1 s"));
+  EXPECT_FALSE(read.noted("the stamp is taken as the end"));
+  EXPECT_EQ(test::scans_of(read.deliveries)[2]->stamp, kStart + 200 * kMillisecond);
+}
+
+/// Clouds of three rings of many points, whose field says `ring(point)`.
+Recording read_rings(const std::filesystem::path& bag,
+                     const std::function<std::uint16_t(std::size_t)>& ring) {
+  std::filesystem::remove(bag);
+  RobotRecording robot(bag);
+  robot.add_transforms(kMounted);
+  robot.add_imu(kStart, 60);
+  for (int k = 0; k < 10; ++k) {
+    std::vector<std::array<float, 4>> points;
+    for (int i = 0; i < 90; ++i) {
+      points.push_back({4, 0, static_cast<float>(i % 3), 0.001F * static_cast<float>(i)});
+    }
+    RawCloud cloud = RawCloud::of(kStart + k * 100 * kMillisecond, points);
+    cloud.fields.push_back({"ring", 16, 4});
+    cloud.point_step = 18;
+    cloud.row_step = 18 * 90;
+    std::vector<std::byte> wider(cloud.row_step);
+    for (std::size_t i = 0; i < 90; ++i) {
+      std::copy_n(&cloud.data[16 * i], 16, &wider[18 * i]);
+      const std::uint16_t number = ring(i);
+      std::memcpy(&wider[18 * i + 16], &number, sizeof(number));
+    }
+    cloud.data = wider;
+    robot.add_cloud(cloud, cloud.stamp + 105 * kMillisecond);
+  }
+  robot.close();
+  return test::read_recording(bag);
+}
+
+TEST_F(CloudTimes, NumbersThatAreNoRingsGiveWayToElevations) {
+  const auto unknown = [](std::size_t) { return std::uint16_t{65535}; };
+  const auto returns = [](std::size_t i) { return static_cast<std::uint16_t>(i / 3 % 2); };
+  for (const auto& [ring, text] :
+       {std::pair<std::function<std::uint16_t(std::size_t)>, const char*>(
+            unknown, "the same for all points"),
+        {returns, "does not go with the elevations"}}) {
+    const Recording read = read_rings(bag(), ring);
+    EXPECT_TRUE(read.noted(text));
+    EXPECT_EQ(read.setup.rings.count, 3);
+    const auto scans = test::scans_of(read.deliveries);
+    for (std::size_t i = 0; i < 90; ++i) ASSERT_EQ(scans[0]->points[i].ring, i % 3);
+  }
+  const Recording right = read_rings(bag(), [](std::size_t i) { return std::uint16_t(i % 3); });
+  EXPECT_FALSE(right.noted("it is no ring"));
 }
 
 }  // namespace

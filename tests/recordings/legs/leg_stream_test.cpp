@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace aims {
 namespace {
@@ -198,6 +200,105 @@ int wrong_seconds(bool in_odometry_axes) {
 TEST(LegStream, ATwistInOdometryAxesIsCountedOnceTheRobotHasTurned) {
   EXPECT_EQ(wrong_seconds(false), 0);
   EXPECT_GE(wrong_seconds(true), 6);  // from half a radian of heading on
+}
+
+/// Speeds of a trot of which each half of the stride has its own feet, whose contacts or joints
+/// arrive `late`.
+double mean_speed(Duration contacts_late, Duration joints_late) {
+  LegStreamConfig config = kinematic();
+  config.contact_wait = 2 * contacts_late;
+  LegStream legs(config);
+  EventCounts counts;
+  legs.add_imu(at_rest(0));
+  double sum = 0.0;
+  int samples = 0;
+  const auto take = [&](std::optional<LegOdometrySample> sample) {
+    for (; sample; sample = legs.next(counts)) {
+      sum += sample->linear_velocity.x();
+      ++samples;
+    }
+  };
+  for (int k = 0; k < 1000; ++k) {
+    const Time now = k * 5 * kMillisecond;
+    const auto even = [](Time stamp) { return stamp / (200 * kMillisecond) % 2 == 0; };
+    if (const Time stamp = now - contacts_late; stamp >= 0) {
+      take(legs.add_contacts({stamp, {even(stamp), !even(stamp), !even(stamp), even(stamp)}},
+                             counts));
+    }
+    const Time stamp = now - joints_late;
+    if (stamp < 0) continue;
+    JointReading reading = striding(stamp);
+    for (std::size_t leg = 0; leg < 4; ++leg) {
+      const bool stands = (leg % 3 == 0) == even(stamp);
+      (*reading.velocity)[3 * leg + 1] = stands ? 1.0 : -1.0;
+    }
+    take(legs.add_joints(reading, counts));
+  }
+  EXPECT_GT(samples, 950);
+  return sum / samples;
+}
+
+TEST(LegStream, JointsAndContactsArePairedByTheirStamps) {
+  const double right = mean_speed(0, 0);
+  EXPECT_GT(right, 0.2);
+  EXPECT_NEAR(mean_speed(60 * kMillisecond, 0), right, 0.02 * right);
+  EXPECT_NEAR(mean_speed(0, 60 * kMillisecond), right, 0.02 * right);
+}
+
+TEST(LegStream, APoseThatDoesNotMoveIsThatOfTheTwist) {
+  for (const bool filled : {false, true}) {
+    LegStreamConfig config;
+    config.source = LegSource::kOdometry;
+    LegStream legs(config);
+    EventCounts counts;
+    LegOdometrySample last;
+    for (int k = 0; k <= 400; ++k) {
+      LegOdometrySample sample;
+      sample.stamp = k * 10 * kMillisecond;
+      sample.linear_velocity.x() = k < 100 ? 0.0 : 0.5;
+      if (filled) sample.T_odom_base.translation.x() = std::max(0, k - 100) * 0.005;
+      last = legs.add_odometry(sample, counts);
+    }
+    EXPECT_NEAR(last.T_odom_base.translation.x(), 1.5, 0.01);
+    EXPECT_EQ(counts.contains("legs_pose_by_twist"), !filled);
+  }
+}
+
+/// The hip's rate that the last sample has where angles advance by 1 rad/s.
+double last_rate(const std::function<void(int, JointReading&)>& change, EventCounts& counts) {
+  LegStream legs(kinematic());
+  legs.add_imu(at_rest(0));
+  double rate = 0.0;
+  for (int k = 0; k < 40; ++k) {
+    JointReading reading = striding(k * 5 * kMillisecond, 0.6 + 0.005 * k);
+    change(k, reading);
+    legs.add_contacts({reading.stamp, {true, true, true, true}}, counts);
+    auto sample = legs.add_joints(reading, counts);
+    for (; sample; sample = legs.next(counts)) rate = sample->joint_velocity[1];
+  }
+  return rate;
+}
+
+TEST(LegStream, RatesThatADriverLeavesEmptyAreDifferences) {
+  for (const double empty : {0.0, std::nan("")}) {
+    EventCounts counts;
+    const double rate =
+        last_rate([empty](int, JointReading& each) { each.velocity->fill(empty); }, counts);
+    EXPECT_NEAR(rate, 1.0, 1e-9);
+    EXPECT_GT(counts.at("joint_rates_empty"), 30);
+  }
+}
+
+TEST(LegStream, NoRateIsADifferenceOverARepeatedStamp) {
+  EventCounts counts;
+  const double rate = last_rate(
+      [](int k, JointReading& each) {
+        each.velocity.reset();
+        each.stamp = k / 2 * 10 * kMillisecond;
+      },
+      counts);
+  EXPECT_NEAR(rate, 1.0, 1e-9);
+  EXPECT_EQ(counts.at("joints_stamp_repeated"), 20);
 }
 
 }  // namespace

@@ -129,6 +129,30 @@ TEST(FrameTree, ChainsOfAnyDirectionMultiplyOut) {
   EXPECT_EQ(tree.chain("a", "d"), (std::vector<std::string>{"a", "b", "c", "d"}));
 }
 
+TEST(FrameTree, FindsTransformsThatContradictAChain) {
+  const Pose near{Eigen::Quaterniond::Identity(), {0.1, 0.0, 0.0}};
+  const Pose far{Eigen::Quaterniond::Identity(), {5.1, 0.0, 0.0}};
+  FrameTree tree;
+  tree.add("base", "imu", Pose{});
+  tree.add("base", "lidar", near);
+  tree.add("base", "lidar", near);
+  tree.add("imu", "lidar", near);  // another way to the same place
+  EXPECT_FALSE(tree.contradiction("imu", "lidar"));
+  tree.add("base", "odom", Pose{});
+  tree.add("base", "odom", far);  // as a robot that moves
+  EXPECT_FALSE(tree.contradiction("imu", "lidar"));
+  tree.add("imu", "lidar", far);
+  ASSERT_TRUE(tree.contradiction("imu", "lidar"));
+  EXPECT_NEAR(tree.contradiction("imu", "lidar")->distance, 5.0, 1e-9);
+
+  FrameTree two_ways;
+  two_ways.add("imu", "lidar", far);
+  two_ways.add("base", "imu", Pose{});
+  two_ways.add("base", "lidar", near);
+  ASSERT_TRUE(two_ways.contradiction("imu", "lidar"));
+  EXPECT_NEAR(two_ways.contradiction("imu", "lidar")->distance, 5.0, 1e-9);
+}
+
 TEST(FrameTree, InvalidTransformsAreRejected) {
   FrameTree tree;
   Pose pose;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -658,6 +659,105 @@ TEST_F(RecordingReaderTest, AGyroInDegreesIsConvertedWhereTheConfigurationSaysSo
   const Recording read = test::read_recording(bag(), config);
   const Eigen::Vector3d turn = test::imu_of(read.deliveries).at(0).angular_velocity;
   EXPECT_NEAR((turn - Eigen::Vector3d(0.5, 0.0, -1.0) * std::numbers::pi).norm(), 0.0, 1e-12);
+}
+
+/// An IMU of 50 Hz at rest for 6 s with clouds, whose stamps and record times `times` changes.
+using ChangeTimes = std::function<void(bool cloud, Time& stamp, Time& recorded)>;
+Recording read_with_times(const std::filesystem::path& bag, const ChangeTimes& times) {
+  RobotRecording robot(bag);
+  robot.add_transforms(kMounted);
+  const Time begin = 1'700'000'000 * kSecond;
+  for (int k = 0; k < 300; ++k) {
+    ImuSample sample;
+    sample.stamp = begin + k * 20 * kMillisecond;
+    sample.specific_force.z() = 9.81;
+    Time recorded = sample.stamp + kMillisecond;
+    times(false, sample.stamp, recorded);
+    robot.add("/imu", imu_type(), recorded, imu_message({0, sample.stamp, "imu"}, sample));
+    if (k % 5 != 0) continue;
+    Time stamp = begin + k * 20 * kMillisecond, arrives = stamp + 101 * kMillisecond;
+    times(true, stamp, arrives);
+    robot.add_cloud(RawCloud::of(stamp, {{1, 2, 0, 0}, {2, 1, 1, 0.09F}}), arrives);
+  }
+  robot.close();
+  return test::read_recording(bag);
+}
+
+constexpr Time kLeap = 1'700'000'003 * kSecond;
+
+TEST_F(RecordingReaderTest, StampsOfOneTopicThatLeapAreNamed) {
+  const Recording read = read_with_times(bag(), [](bool cloud, Time& stamp, Time&) {
+    if (cloud && stamp >= kLeap) stamp += 37 * kSecond;
+  });
+  EXPECT_TRUE(read.noted("/points: stamps leap by 37.000 s, 3.0 s after its first message"));
+  EXPECT_FALSE(read.noted("lidar_delay"));
+  EXPECT_FALSE(read.counts.contains("recorded_before_their_stamp"));
+}
+
+TEST_F(RecordingReaderTest, ARecorderThatIsSetForwardMovesNoArrival) {
+  const Recording read = read_with_times(bag(), [](bool, Time&, Time& recorded) {
+    if (recorded >= kLeap) recorded += 3600 * kSecond;
+  });
+  EXPECT_FALSE(read.noted("leap"));
+  EXPECT_GT(read.counts.at("recorded_long_after_their_stamp"), 100);
+  for (const Delivery& each : read.deliveries) {
+    ASSERT_LT(each.arrival, kLeap + 4 * kSecond);
+  }
+  EXPECT_EQ(test::imu_of(read.deliveries).size(), 300U);
+}
+
+TEST_F(RecordingReaderTest, OneMessageOfTheFutureMovesNoArrival) {
+  const Recording read = read_with_times(bag(), [](bool cloud, Time& stamp, Time& recorded) {
+    if (!cloud && stamp == kLeap) recorded += 1'000'000 * kSecond;
+  });
+  EXPECT_EQ(read.counts.at("recorded_long_after_their_stamp"), 1);
+  for (const Delivery& each : read.deliveries) ASSERT_LT(each.arrival, kLeap + 4 * kSecond);
+}
+
+TEST_F(RecordingReaderTest, CloudsOfAnotherFrameAreCounted) {
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  robot.add_imu(kStart, 60);
+  for (int k = 0; k < 10; ++k) {
+    RawCloud cloud =
+        RawCloud::of(kStart + k * 100 * kMillisecond, {{1, 2, 0, 0}, {2, 1, 1, 0.09F}});
+    if (k >= 6) cloud.frame = "lidar_b";
+    robot.add_cloud(cloud, cloud.stamp + 101 * kMillisecond);
+  }
+  robot.close();
+  EXPECT_EQ(test::read_recording(bag()).counts.at("lidar_of_another_frame"), 4);
+}
+
+/// What is said of an IMU of 100 Hz that stands for `standing`, then walks; `turn` scales its gyro.
+Recording read_walk(const std::filesystem::path& bag, double standing, double turn = 1.0) {
+  std::filesystem::remove(bag);
+  RobotRecording robot(bag);
+  robot.add_transforms(kMounted);
+  for (int k = 0; k < 500; ++k) {
+    const double time = 0.01 * k;
+    const bool walks = time >= standing;
+    ImuSample sample;
+    sample.stamp = kStart + k * 10 * kMillisecond;
+    sample.specific_force = {0.0, 0.0, 9.81 + (walks ? 2.0 * std::sin(14.0 * time) : 0.0)};
+    sample.angular_velocity.y() = walks ? turn * 0.3 * std::sin(14.0 * time) : 0.0;
+    robot.add("/imu", imu_type(), sample.stamp + kMillisecond,
+              imu_message({0, sample.stamp, "imu"}, sample));
+  }
+  robot.add_clouds(kStart, 20);
+  robot.close();
+  return test::read_recording(bag);
+}
+
+TEST_F(RecordingReaderTest, ARobotThatDoesNotStandAtTheStartIsAWarning) {
+  EXPECT_TRUE(read_walk(bag(), 2.5).setup.warnings.empty());
+  for (const double standing : {0.0, 1.0}) {
+    EXPECT_TRUE(read_walk(bag(), standing).noted("the robot moves in the first two seconds"));
+  }
+}
+
+TEST_F(RecordingReaderTest, AGyroThatDoesNotMeasureIsAWarning) {
+  EXPECT_FALSE(read_walk(bag(), 2.5).noted("the gyro is off"));
+  EXPECT_TRUE(read_walk(bag(), 2.5, 0.0).noted("the gyro is off"));
 }
 
 }  // namespace

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/estimate/count_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+
+namespace aims {
+namespace {
+
+int count_of(const EstimateResult& result, const char* what) {
+  const auto found = result.counts.find(what);
+  return found == result.counts.end() ? 0 : found->second;
+}
+
+/// Warns of what the counts of the whole recording say of the IMU.
+void warn_of_imu(EstimateResult& result) {
+  constexpr double kFew = 0.05;  // of the samples
+  const double samples = result.recorded_s * result.setup.imu_rate_hz.value_or(0.0);
+  const int repeated = count_of(result, "imu_stamp_not_increasing");
+  if (repeated <= kFew * samples) return;
+  result.setup.warnings.push_back(
+      {"stamps of the IMU repeat or go backwards",
+       fmt::format("{} IMU samples have stamps that are not after the one before: they are "
+                   "dropped, and the others may be rounded",
+                   repeated)});
+}
+
+/// Warns of IMU samples without numbers or stamps.
+void warn_of_unusable(EstimateResult& result) {
+  constexpr double kFew = 0.02;  // of the samples
+  const double samples = result.recorded_s * result.setup.imu_rate_hz.value_or(0.0);
+  if (const int bad = count_of(result, "imu_not_finite"); bad > kFew * samples) {
+    result.setup.warnings.push_back(
+        {"IMU samples are not finite",
+         fmt::format("{} of {:.0f} IMU samples are not finite (NaN): estimators leave them out",
+                     bad, samples)});
+  }
+  if (const int unset = count_of(result, "stamp_not_set"); unset > kFew * samples) {
+    result.setup.warnings.push_back(
+        {"messages without a stamp",
+         fmt::format("{} messages have the stamp 0, before the sensor's clock was set: they are "
+                     "left out",
+                     unset)});
+  }
+}
+
+/// Likewise of the legs.
+void warn_of_legs(EstimateResult& result) {
+  constexpr int kFewSeconds = 3;     // of a twist that may be a slip
+  constexpr double kMost = 0.5;      // of the samples; a trot has none without contact
+  constexpr double kDisagree = 0.2;  // of the samples
+  const double samples = result.recorded_s * result.setup.leg_rate_hz.value_or(0.0);
+  const std::string& topic = result.setup.topics.leg_odometry;
+  const auto warn = [&result](std::string reason, std::string text) {
+    result.setup.warnings.push_back({std::move(reason), std::move(text), WarnedSensor::kLegs});
+  };
+  if (const int filled = count_of(result, "legs_twist_by_pose_differences"); filled > 0) {
+    warn("twist of the leg odometry is zero",
+         fmt::format("{}: the twist is zero in {} messages whose pose moves: differences of the "
+                     "poses serve",
+                     topic, filled));
+  }
+  if (const int filled = count_of(result, "legs_pose_by_twist"); filled > 0) {
+    warn("pose of the leg odometry does not move",
+         fmt::format("{}: the pose is the same in {} messages whose twist moves: the twist is "
+                     "integrated",
+                     topic, filled));
+  }
+  if (const int empty = count_of(result, "joint_rates_empty"); empty > kDisagree * samples) {
+    warn("rates of the joints are empty",
+         fmt::format("{}: the rates of the joints are zero or not finite in {} messages though the "
+                     "angles change: differences of the angles serve",
+                     result.setup.topics.joint_states, empty));
+  }
+  if (const int again = count_of(result, "joints_stamp_repeated"); again > kDisagree * samples) {
+    warn("stamps of the joints repeat",
+         fmt::format("{} messages of the joints have the stamp of the one before: they are left "
+                     "out, and the others may be rounded",
+                     again));
+  }
+  if (const int axes = count_of(result, "legs_twist_in_odometry_axes_seconds");
+      axes > kFewSeconds) {
+    warn("twist of the leg odometry in the axes of its world",
+         fmt::format("{}: the twist is in the axes of the odometry's frame for {} s, expected "
+                     "those of the base: use joints and contacts (topics.leg_odometry: none) or "
+                     "correct the driver",
+                     topic, axes));
+  }
+  if (const int none = count_of(result, "legs_no_contact"); none > kMost * samples && none > 0) {
+    warn("feet hardly ever in contact",
+         fmt::format("no foot is in contact in {} of {:.0f} samples of the legs: the last velocity "
+                     "serves there (contact_threshold, contact_detection)",
+                     none, samples));
+  }
+  if (const int apart = count_of(result, "feet_in_contact_disagree"); apart > kDisagree * samples) {
+    warn("feet in contact disagree",
+         fmt::format("the feet in contact state different velocities in {} of {:.0f} samples: is "
+                     "the order of the joints and of the feet right (joint_names, foot_names), "
+                     "and the threshold of contact?",
+                     apart, samples));
+  }
+}
+
+/// Likewise of the clouds.
+void warn_of_clouds(EstimateResult& result) {
+  constexpr double kFew = 0.05, kMany = 0.2;  // of the clouds
+  const auto warn = [&result](std::string reason, std::string text) {
+    result.setup.warnings.push_back({std::move(reason), std::move(text), WarnedSensor::kLidar});
+  };
+  if (const int untimed = count_of(result, "cloud_mostly_untimed");
+      untimed > kFew * result.clouds) {
+    warn("most points of some clouds left out by their times",
+         fmt::format("{} of {} clouds have most points at times that are more than a second from "
+                     "the scan: they are left out (point_time_unit)",
+                     untimed, result.clouds));
+  }
+  if (const int same = count_of(result, "cloud_without_times"); same > kFew * result.clouds) {
+    warn("clouds without point times",
+         fmt::format("{} of {} clouds have the same time for all points: they are taken as "
+                     "measured at one instant",
+                     same, result.clouds));
+  }
+  if (const int other = count_of(result, "lidar_of_another_frame"); other > 0) {
+    warn("frame of the clouds changes",
+         fmt::format("{} of {} clouds have another frame_id than the first one, whose extrinsic "
+                     "serves for all",
+                     other, result.clouds));
+  }
+  if (const int empty = count_of(result, "cloud_empty"); empty > kMany * result.clouds) {
+    warn("clouds without points",
+         fmt::format("{} of {} clouds have no usable point", empty, result.clouds));
+  }
+}
+
+/// Likewise of the recorder.
+void warn_of_recorder(EstimateResult& result) {
+  if (const int early = count_of(result, "recorded_before_their_stamp"); early > 0) {
+    result.setup.warnings.push_back(
+        {"recorder's clock was set back or not set",
+         fmt::format(
+             "{} messages are recorded before their stamp: the recorder's clock was set back "
+             "or not set yet; they arrive at their stamp and the usual delay",
+             early)});
+  }
+  if (const int late = count_of(result, "recorded_long_after_their_stamp"); late > 0) {
+    result.setup.warnings.push_back(
+        {"record times leap",
+         fmt::format(
+             "{} messages are recorded more than 5 s after their stamp and the usual delay: "
+             "the recorder's clock was set forward, or their times are wrong; they arrive "
+             "at their stamp and the usual delay",
+             late)});
+  }
+  if (result.summary.lost_bytes > 0) {
+    result.setup.warnings.push_back(
+        {"parts of the recording are lost",
+         fmt::format("{} of {} bytes are in or behind damaged parts of the file: the messages in "
+                     "them are lost",
+                     result.summary.lost_bytes, result.summary.file_size)});
+  }
+}
+
+}  // namespace
+
+void warn_of_counts(EstimateResult& result) {
+  warn_of_recorder(result);
+  warn_of_imu(result);
+  warn_of_unusable(result);
+  warn_of_legs(result);
+  warn_of_clouds(result);
+}
+
+}  // namespace aims
