@@ -56,9 +56,7 @@ def poses_of(returned, stamp):
     """What a method returned as a list of (stamp [ns], T_odom_body (4, 4) float64)."""
     if returned is None:
         return []
-    rows = isinstance(returned, list) and len(returned) == 4
-    nested = rows and all(isinstance(each, list) and len(each) == 4 for each in returned)
-    if isinstance(returned, list) and not nested:
+    if isinstance(returned, list):
         return [pose for each in returned for pose in poses_of(each, stamp)]
     if isinstance(returned, tuple):
         if len(returned) != 2 or not hasattr(returned[0], "__index__"):
