@@ -22,21 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(std::uint32_t address, std::uint16_t port) {
-  return fmt::format("{}.{}.{}.{} to port {}", address >> 24, (address >> 16) & 255,
-                     (address >> 8) & 255, address & 255, port);
-}
-
 }  // namespace
 
 struct PcapReader::Impl {
-  /// Who sends packets of a LiDAR, and how many of them were read.
-  struct Sender {
-    std::uint32_t address = 0;
-    std::uint16_t port = 0;
-    std::size_t size = 0;  ///< of the payload [bytes]
-    int packets = 0;
-  };
   UdpPackets packets;
   std::optional<OusterMetadata> ouster;
   bool recover = false;
@@ -47,10 +35,6 @@ struct PcapReader::Impl {
   std::map<std::size_t, std::size_t> sizes = {};   ///< number of payloads by size [bytes]
   std::map<std::string, std::size_t> lidars = {};  ///< number of packets by who sends such
 
-  std::size_t ouster_size = 0;       ///< of a packet of points [bytes]
-  std::vector<Sender> senders = {};  ///< of packets of a LiDAR
-
-  std::optional<std::string> other_lidar(const UdpPacket& packet);
   void note_payload(std::span<const std::byte> payload);
   void recognize(std::span<const std::byte> payload);
   std::unique_ptr<PacketDecoder> new_decoder() const;
@@ -61,30 +45,6 @@ struct PcapReader::Impl {
   }
   std::string found() const;
 };
-
-/// Names the LiDARs where packets of one kind come from two.
-std::optional<std::string> PcapReader::Impl::other_lidar(const UdpPacket& packet) {
-  constexpr int kMany = 20;  // packets; fewer may be strays
-  const std::size_t size = packet.payload.size();
-  const bool of_lidar = ouster ? size == ouster_size
-                               : !lidar_of_packet(packet.payload).empty() &&
-                                     !is_robosense_information(packet.payload);
-  if (!of_lidar) return std::nullopt;
-  auto sender = std::ranges::find_if(senders, [&](const Sender& each) {
-    return each.address == packet.sender && each.port == packet.port && each.size == size;
-  });
-  if (sender == senders.end()) {
-    if (senders.size() >= 100) return std::nullopt;
-    sender = senders.insert(senders.end(), {packet.sender, packet.port, size, 0});
-  }
-  ++sender->packets;
-  const auto other = std::ranges::find_if(senders, [&](const Sender& each) {
-    return each.size == size && &each != &*sender && each.packets > kMany;
-  });
-  if (sender->packets <= kMany || other == senders.end()) return std::nullopt;
-  return fmt::format("{}, {}", text_of(other->address, other->port),
-                     text_of(sender->address, sender->port));
-}
 
 void PcapReader::Impl::note_payload(std::span<const std::byte> payload) {
   if (sizes.size() < 100) ++sizes[payload.size()];
@@ -141,7 +101,6 @@ Result<PcapReader> PcapReader::open(const fs::path& file, BagOpenOptions options
     auto read = read_ouster_metadata(metadata);
     if (!read) return tl::unexpected(read.error());
     impl->ouster = std::move(*read);
-    impl->ouster_size = OusterScans(*impl->ouster).lidar_packet_size();
   }
   PcapReader reader(std::move(impl));
   if (auto counted = reader.count(); !counted) return tl::unexpected(counted.error());
@@ -181,13 +140,6 @@ Result<std::optional<KindSource::Made>> PcapReader::make() {
     pcap.note_payload((*packet)->payload);
     const UdpPacket& each = **packet;
     pcap.recognize(each.payload);
-    if (const auto lidars = pcap.other_lidar(each)) {
-      return pcap.packets.file().refuse(
-          each.position,
-          fmt::format("expected the packets of one LiDAR, found those of several ({}): `tcpdump -r "
-                      "IN -w OUT 'src host ADDRESS and udp dst port PORT'` keeps one",
-                      *lidars));
-    }
     auto completed = pcap.decoder->add(each);
     if (!completed) return pcap.packets.file().refuse(each.position, completed.error().message);
     if (!*completed) continue;
@@ -200,7 +152,6 @@ Result<std::optional<KindSource::Made>> PcapReader::make() {
 void PcapReader::rewind() {
   impl_->packets.rewind();
   impl_->time = 0;
-  impl_->senders.clear();
   impl_->decoder = impl_->new_decoder();
 }
 

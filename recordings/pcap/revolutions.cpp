@@ -15,11 +15,7 @@ constexpr std::size_t kMostEarly = 1'000'000;  ///< no sensor has as many return
 
 std::optional<LidarScan> Revolutions::begin_block(int azimuth, int turn) {
   std::optional<LidarScan> ended;
-  block_azimuth_ = azimuth;
-  // Slightly behind the last one, also across zero.
-  const int behind = azimuth_ ? (*azimuth_ - azimuth + kRevolution) % kRevolution : 0;
-  if (behind > 0 && behind < kLate) return ended;
-  if (azimuth_ && azimuth < *azimuth_) {
+  if (azimuth_ && azimuth < *azimuth_ - kLate) {
     if (whole_ && !scan_.points.empty()) ended = std::move(scan_);
     scan_ = LidarScan();
     whole_ = true;
@@ -45,7 +41,7 @@ void Revolutions::add_to(LidarScan& scan, LidarPoint point, Time time) {
 
 void Revolutions::add(LidarPoint point, Time time) {
   if (whole_) return add_to(scan_, point, time);
-  if (!ended_ && early_.size() < kMostEarly) early_.push_back({block_azimuth_, point, time});
+  if (!ended_ && early_.size() < kMostEarly) early_.push_back({*azimuth_, point, time});
 }
 
 /// The returns before the azimuth passed zero from where those behind it end.

@@ -44,8 +44,7 @@ class Revolutions {
   int turn_ = 0;                ///< of the head over the last block [0.01 deg]
   bool whole_ = false;          ///< the present revolution began at its start
   bool ended_ = false;          ///< a scan was complete
-  std::optional<int> azimuth_;  ///< of the last block that came in time [0.01 deg]
-  int block_azimuth_ = 0;       ///< of the present block [0.01 deg]
+  std::optional<int> azimuth_;  ///< of the last block [0.01 deg]
 };
 
 }  // namespace aims

@@ -112,7 +112,7 @@ Result<std::optional<UdpPacket>> UdpPackets::next() {
     const auto payload = datagram(ip_of(link_, frame_));
     if (!payload) continue;
     const Time time = Time{number(header.data())} * kSecond + Time{number(&header[4])} * tick_;
-    return UdpPacket{time, *payload, at, sender_, port_};
+    return UdpPacket{time, *payload, at};
   }
   return std::optional<UdpPacket>();
 }
@@ -135,8 +135,6 @@ std::optional<std::span<const std::byte>> UdpPackets::datagram(std::span<const s
   if (!udp || udp->size() < 8) return std::nullopt;
   const std::size_t length = big16(&(*udp)[4]);
   if (length < 8 || length > udp->size()) return std::nullopt;
-  sender_ = load_number<std::uint32_t>(&ip[12], std::endian::big);
-  port_ = big16(&(*udp)[2]);
   return udp->subspan(8, length - 8);
 }
 

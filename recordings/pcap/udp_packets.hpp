@@ -21,8 +21,6 @@ struct UdpPacket {
   Time time = 0;  ///< of the capture, of its last fragment
   std::span<const std::byte> payload;
   std::uint64_t position = 0;  ///< of the last frame in the file
-  std::uint32_t sender = 0;    ///< its address
-  std::uint16_t port = 0;      ///< to which it is sent
 };
 
 /// Reads the UDP datagrams of a capture in the format of libpcap (microseconds or nanoseconds,
@@ -60,8 +58,6 @@ class UdpPackets {
   Duration tick_ = 1;  ///< of the fraction of a second [ns]
   std::uint32_t link_ = 0;
   std::uint64_t position_ = 0;
-  std::uint32_t sender_ = 0;  ///< of the last datagram
-  std::uint16_t port_ = 0;
   std::vector<std::byte> frame_;
   std::vector<std::byte> whole_;  ///< datagram of several fragments
   std::map<DatagramId, Fragments> open_;
