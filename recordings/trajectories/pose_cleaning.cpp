@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <optional>
 
 namespace aims {
@@ -52,18 +51,6 @@ std::vector<bool> far_from(const Trajectory& poses) {
     far[i] = next;
   }
   return far;
-}
-
-/// Whether the first poses are unset and the next one is farther away than any body gets in the
-/// time between.
-bool starts_with_a_leap(const Trajectory& poses) {
-  constexpr double kFastest = 5.0;  // of a robot [m/s]
-  const auto set = std::ranges::find_if(poses, [](const StampedPose& each) {
-    return !is_unset(each.pose) && each.pose.translation.allFinite();
-  });
-  if (set == poses.begin() || set == poses.end()) return false;
-  const double passed = to_seconds(set->stamp - std::prev(set)->stamp);
-  return set->pose.translation.norm() > kFar + kFastest * std::max(passed, 0.0);
 }
 
 std::string text_of(const std::array<std::size_t, kFaults>& counts) {
@@ -121,13 +108,12 @@ void drop_unusable(Trajectory& poses, const std::string& name, std::vector<std::
   std::array<std::size_t, kFaults> counts{};
   std::optional<Time> last;
   const std::vector<bool> far = far_from(poses);
-  const bool leaps = starts_with_a_leap(poses);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const StampedPose& each = poses[i];
     Fault fault = fault_of(each, last);
     // Unset between others that are far from the origin.
     const bool lost =
-        is_unset(each.pose) && far[i] && (usable.empty() ? leaps : is_far(usable.back().pose));
+        is_unset(each.pose) && far[i] && !usable.empty() && is_far(usable.back().pose);
     if (fault == kNoFault && lost) fault = kLost;
     ++counts[fault];
     if (fault != kNoFault) continue;

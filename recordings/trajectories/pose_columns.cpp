@@ -160,16 +160,6 @@ bool names_degrees(std::span<const std::string_view> header) {
   });
 }
 
-bool names_down(std::span<const std::string_view> header) {
-  const auto names = [&](std::initializer_list<std::string_view> words) {
-    return std::ranges::any_of(header, [&](std::string_view cell) {
-      return is_one_of(last_part(heading_of(cell).name), words);
-    });
-  };
-  return names({"north", "n", "northing"}) && names({"east", "e", "easting"}) &&
-         names({"down", "d"});
-}
-
 PoseColumns ordered_columns(std::size_t columns, bool w_first) {
   PoseColumns ordered;
   if (columns == 13 || columns == 17) ordered.matrix = 1;

@@ -37,9 +37,6 @@ std::optional<PoseColumns> named_columns(std::span<const std::string_view> heade
 /// Whether the header names a latitude or longitude, which are no positions in metres.
 bool names_degrees(std::span<const std::string_view> header);
 
-/// Whether it names north, east and down: axes that no other trajectory here has.
-bool names_down(std::span<const std::string_view> header);
-
 /// The columns of a table without names: stamp, position, and from 8 columns on the quaternion; of
 /// 13 or 17 columns stamp and matrix, as of MulRan.
 PoseColumns ordered_columns(std::size_t columns, bool w_first);

@@ -195,14 +195,6 @@ class TableReader {
   TableReader(const std::string& name, int decimals, std::vector<std::string>& notes)
       : name_(name), decimals_(decimals), notes_(notes) {}
 
-  /// Reads angles without a unit as degrees.
-  void take_degrees() { degrees_ = true; }
-  /// Whether angles that were read as radians go beyond two turns.
-  bool turns_too_far() const {
-    return !degrees_ && layout_ && !layout_->columns.rpy_in_degrees &&
-           largest_angle_ > 4.0 * std::numbers::pi;
-  }
-
   /// The row of a line, a line end where it has none.
   Result<std::string> read(std::string_view line) {
     ++number_;
@@ -221,7 +213,6 @@ class TableReader {
     const bool odd = separator == ' ' && !named_ && !layout_->columns.matrix &&
                      cells.size() != kPositionColumns && cells.size() != kColumns;
     if (odd || cells.size() < layout_->columns.least()) return wrong_number(cells.size());
-    if (layout_->columns.rpy) note_angles(cells);
     return layout_->row(cells);
   }
 
@@ -240,7 +231,6 @@ class TableReader {
     }
     named_ = named_columns(names);
     in_degrees_ = in_degrees_ || names_degrees(names);
-    down_ = down_ || names_down(names);
     if (!named_ && comment) return;
     of_comment_ = comment;
     header_size_ = names.size();
@@ -253,24 +243,11 @@ class TableReader {
     return named_ && of_comment_ && header_size_ != filled && header_size_ != cells.size();
   }
 
-  void note_angles(const std::vector<std::string_view>& cells) {
-    for (const std::size_t each : *layout_->columns.rpy) {
-      const double angle = std::abs(layout_->value(cells[each]));
-      if (angle > largest_angle_) largest_angle_ = angle;
-    }
-  }
-
   Result<void> begin(const std::vector<std::string_view>& cells, char separator) {
     if (in_degrees_ && !named_) {
       return failure(
           fmt::format("{}:{}: expected positions in metres, found latitude and "
                       "longitude: convert them to a local frame (ENU, UTM)",
-                      name_, number_));
-    }
-    if (down_ && !named_) {
-      return failure(
-          fmt::format("{}:{}: expected x, y, z with z upwards, found north, east, down: write "
-                      "x = east, y = north, z = -down",
                       name_, number_));
     }
     if (is_other_header(cells)) {
@@ -288,7 +265,6 @@ class TableReader {
     layout_->columns =
         named_ ? *named_ : ordered_columns(cells.size(), unit == StampUnit::kNanoseconds);
     PoseColumns& columns = layout_->columns;
-    columns.rpy_in_degrees = columns.rpy_in_degrees || (degrees_ && columns.rpy);
     if (columns.unit == StampUnit::kByDigits && columns.stamp < cells.size()) {
       columns.unit = unit_by_digits(cells[columns.stamp]);
       if (columns.unit == StampUnit::kMicroseconds || columns.unit == StampUnit::kMilliseconds) {
@@ -326,9 +302,6 @@ class TableReader {
   std::optional<PoseColumns> named_;
   std::size_t header_size_ = 0;  ///< columns that it names
   bool of_comment_ = false;      ///< the header is a comment
-  bool degrees_ = false;         ///< angles without a unit are degrees
-  double largest_angle_ = 0.0;   ///< as the table has it
-  bool down_ = false;            ///< the header names north, east and down
   bool in_degrees_ = false;      ///< the header names latitude or longitude
   std::optional<RowLayout> layout_;
   int number_ = 0;
@@ -393,23 +366,14 @@ std::string stamp_in_seconds(std::string_view stamp, int decimals) {
 Result<std::string> tum_of_pose_table(std::string_view text, const std::string& name, int decimals,
                                       std::vector<std::string>& notes) {
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  const auto read = [&](TableReader& reader) -> Result<std::string> {
-    std::string out;
-    for (std::string_view rest = text; !rest.empty();) {
-      auto row = reader.read(take_line(rest));
-      if (!row) return row;
-      out += *row;
-    }
-    return out;
-  };
+  std::string out;
   TableReader reader(name, decimals, notes);
-  auto rows = read(reader);
-  if (!rows || !reader.turns_too_far()) return rows;
-  notes.push_back(fmt::format("{}: angles beyond two turns: taken as degrees", name));
-  std::vector<std::string> noted;  // the first time
-  TableReader in_degrees(name, decimals, noted);
-  in_degrees.take_degrees();
-  return read(in_degrees);
+  while (!text.empty()) {
+    auto row = reader.read(take_line(text));
+    if (!row) return row;
+    out += *row;
+  }
+  return out;
 }
 
 }  // namespace aims

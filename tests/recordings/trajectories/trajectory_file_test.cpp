@@ -2,9 +2,7 @@
 #include "recordings/trajectories/trajectory_file.hpp"
 
 #include <gtest/gtest.h>
-
 #include <sys/stat.h>
-#include <numbers>
 
 #include <fstream>
 #include <limits>
@@ -380,31 +378,6 @@ TEST_F(TrajectoryFiles, APoseOfALostBodyIsLeftOutOfATruth) {
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->trajectory.size(), 4U) << "those at the start are a start";
   EXPECT_NE(read->notes.at(0).find("2 exactly at the origin"), std::string::npos);
-}
-
-TEST_F(TrajectoryFiles, PosesBeforeABodyWasFoundAreLeftOutOfATruth) {
-  const auto read = read_trajectory(file("mocap.tum",
-                                         "1.00 0 0 0 0 0 0 1\n1.02 0 0 0 0 0 0 1\n"
-                                         "1.04 3 3 3 0 0 0.6 0.8\n1.06 3 3 3.01 0 0 0.6 0.8\n"),
-                                    {});
-  ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(read->trajectory.size(), 2U);
-  EXPECT_EQ(read->trajectory[0].pose.translation.x(), 3.0);
-}
-
-TEST_F(TrajectoryFiles, NorthEastDownIsNoXYZ) {
-  EXPECT_NE(message_of(file("ned.csv", "t,north,east,down\n1,1,2,3\n2,1,2,3\n"))
-                .find("x = east, y = north, z = -down"),
-            std::string::npos);
-}
-
-TEST_F(TrajectoryFiles, AnglesBeyondTwoTurnsAreDegrees) {
-  const auto read = read_trajectory(
-      file("a.csv", "t,x,y,z,roll,pitch,yaw\n1,0,0,0,0,0,90\n2,1,0,0,0,0,180\n"), {});
-  ASSERT_TRUE(read) << read.error().message;
-  EXPECT_NEAR(yaw_of(read->trajectory[0].pose.rotation), 0.5 * std::numbers::pi, 1e-12);
-  ASSERT_EQ(read->notes.size(), 1U);
-  EXPECT_NE(read->notes[0].find("taken as degrees"), std::string::npos);
 }
 
 TEST_F(TrajectoryFiles, NumbersWithoutNamesAreNoOtherColumns) {
