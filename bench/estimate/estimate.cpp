@@ -11,6 +11,7 @@
 #include "bench/estimate/estimate_log.hpp"
 #include "bench/estimate/python_classes.hpp"
 #include "bench/estimate/ring_note.hpp"
+#include "bench/estimate/scoring_input.hpp"
 #include "bench/estimate/stream.hpp"
 #include "bench/scoring/score_record.hpp"
 #include "core/files/tum.hpp"
@@ -18,6 +19,7 @@
 #include "core/stopwatch.hpp"
 #include "estimator/estimator_spec.hpp"
 #include "recordings/frames/configured_extrinsic.hpp"
+#include "recordings/trajectories/pose_cleaning.hpp"
 
 namespace aims {
 namespace {
@@ -57,6 +59,7 @@ Result<void> score_against_truth(const EstimateConfig& config, EstimateResult& r
   auto truth = trajectory_of(result, result.truth, kTruthFile);
   if (!truth) return tl::unexpected(truth.error());
   if (truth->empty()) return {};
+  drop_unusable(*truth, "the truth", result.setup.notes);
   ScoringInput input;
   input.scoring = config.scoring;
   input.truth = {result.bag.stem().string(), result.bag.string(), "truth of the recording",
@@ -77,6 +80,10 @@ Result<void> score_against_truth(const EstimateConfig& config, EstimateResult& r
     input.waypoint_times = std::move(origin->waypoint_times);
   } else {
     result.setup.notes.push_back(origin.error().message);
+  }
+  resolve_truth_content(input);
+  for (const std::string& note : input.notes) {
+    result.setup.warnings.push_back({"truth of positions alone", note});
   }
   auto scores = score_trajectories(std::move(input));
   if (scores) {
