@@ -2,6 +2,7 @@
 #include "bench/estimate/estimate.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <functional>
@@ -82,8 +83,9 @@ Result<void> score_against_truth(const EstimateConfig& config, EstimateResult& r
     result.setup.notes.push_back(origin.error().message);
   }
   resolve_truth_content(input);
-  for (const std::string& note : input.notes) {
-    result.setup.warnings.push_back({"truth of positions alone", note});
+  if (!input.notes.empty()) {
+    result.setup.warnings.push_back(
+        {"truth of positions alone", fmt::format("{}", fmt::join(input.notes, "; "))});
   }
   auto scores = score_trajectories(std::move(input));
   if (scores) {

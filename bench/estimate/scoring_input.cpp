@@ -53,7 +53,12 @@ Result<Pose> pose_of(std::string_view option, const std::string& text, bool may_
 
 Result<Pose> extrinsic_of(const std::string& text) {
   if (text.empty()) return Pose();
-  return pose_of("--extrinsic", text, false);
+  constexpr double kMaxLever = 100.0;  // of a frame on a robot [m]
+  auto pose = pose_of("--extrinsic", text, false);
+  if (pose && pose->translation.norm() > kMaxLever) {
+    return failure(fmt::format("--extrinsic '{}': expected at most {} m", text, kMaxLever));
+  }
+  return pose;
 }
 
 /// "run/odom" of run.bag:/odom, "aims" of out/aims.tum.

@@ -109,7 +109,8 @@ void note_causes(const TrajectoryScores& result, std::vector<std::string>& notes
   for (const ScoredEstimate& each : result.estimates) {
     const Trajectory& given = each.given.trajectory;
     for (const auto& hint :
-         {stamp_unit_hint(given, truth), body_frame_hint(given, truth, result.scoring)}) {
+         {stamp_unit_hint(given, truth), position_unit_hint(given, truth, result.scoring),
+          body_frame_hint(given, truth, result.scoring)}) {
       if (hint) notes.push_back(fmt::format("{}: {}", each.given.name, *hint));
     }
   }

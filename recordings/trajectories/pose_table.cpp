@@ -232,6 +232,8 @@ std::string_view without_comment(std::string_view line) {
 bool is_comment(std::string_view line) {
   const std::size_t first = line.find_first_not_of(" \t\r");
   if (first == std::string_view::npos) return true;
+  // The separator that a spreadsheet is told.
+  if (line.substr(first).starts_with("sep=")) return true;
   return line[first] == '#' || line[first] == '%' || line.substr(first).starts_with("//");
 }
 
