@@ -38,7 +38,7 @@ double span_of(const Trajectory& trajectory) {
 }
 
 /// Root mean square distance of the positions of one side from their mean [m].
-double spread_of(std::span<const PosePair> pairs, Pose PosePair::* side) {
+double spread_of(std::span<const PosePair> pairs, Pose PosePair::*side) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const PosePair& each : pairs)
     mean += (each.*side).translation / static_cast<double>(pairs.size());
@@ -163,19 +163,20 @@ std::optional<std::string> position_unit_hint(const Trajectory& estimate, const 
                                               const ScoreConfig& config) {
   const auto pairs = compared_pairs(valid_part(estimate), truth, config);
   if (pairs.size() < kFewestPairs) return std::nullopt;
-  const double ratio =
-      spread_of(pairs, &PosePair::estimate) / spread_of(pairs, &PosePair::truth);
+  const double ratio = spread_of(pairs, &PosePair::estimate) / spread_of(pairs, &PosePair::truth);
   for (const auto& [unit, factor] : {std::pair{"mm", 1e3}, {"cm", 1e2}}) {
     const auto is_about = [](double value) { return value > 0.8 && value < 1.25; };
     if (is_about(ratio / factor)) {
-      return fmt::format("its positions spread {:.3g} times the truth's: likely in {}; expected "
-                         "metres",
-                         ratio, unit);
+      return fmt::format(
+          "its positions spread {:.3g} times the truth's: likely in {}; expected "
+          "metres",
+          ratio, unit);
     }
     if (is_about(1.0 / (ratio * factor))) {
-      return fmt::format("the truth's positions spread {:.3g} times its own: likely in {}; "
-                         "expected metres",
-                         1.0 / ratio, unit);
+      return fmt::format(
+          "the truth's positions spread {:.3g} times its own: likely in {}; "
+          "expected metres",
+          1.0 / ratio, unit);
     }
   }
   return std::nullopt;

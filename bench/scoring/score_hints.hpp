@@ -14,7 +14,8 @@ namespace aims {
 /// ms reads"; of the opposite, that the truth's stamps are such.
 std::optional<std::string> stamp_unit_hint(const Trajectory& estimate, const Trajectory& truth);
 
-/// Where the positions of one side spread 1000 or 100 times as far as the other's: their likely unit.
+/// Where the positions of one side spread 1000 or 100 times as far as the other's: their likely
+/// unit.
 std::optional<std::string> position_unit_hint(const Trajectory& estimate, const Trajectory& truth,
                                               const ScoreConfig& config);
 

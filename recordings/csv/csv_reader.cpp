@@ -47,9 +47,9 @@ Result<Columns> columns_of(const CsvColumns& csv, const std::vector<std::string>
   Columns columns;
   for (const std::string& name : names) {
     if (!csv.has(name)) {
-      return failure(fmt::format(
-          "{}: expected a column '{}', which the mapping names; there are '{}'", file, name,
-          fmt::join(csv.header(), "', '")));
+      return failure(
+          fmt::format("{}: expected a column '{}', which the mapping names; there are '{}'", file,
+                      name, fmt::join(csv.header(), "', '")));
     }
     auto numbers = csv.numbers(name);
     if (!numbers) return tl::unexpected(numbers.error());

@@ -190,7 +190,7 @@ std::optional<LidarScan> OusterScans::add(std::span<const std::byte> packet) {
         load_number<std::uint16_t>(at.frame_in_column ? column + at.frame : &packet[at.frame]);
     const std::size_t status = at.column_footer > 0 ? column_size - at.column_footer : at.status;
     if ((std::to_integer<int>(column[status]) & 1) == 0) continue;  // not measured
-    if (frame == before_ && frame != frame_) continue;  // late
+    if (frame == before_ && frame != frame_) continue;              // late
     if (frame != frame_) {
       if (auto whole = finish(); whole) ended = std::move(whole);
       received_.assign(static_cast<std::size_t>(metadata_.columns_per_frame), false);

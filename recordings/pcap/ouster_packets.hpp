@@ -68,7 +68,7 @@ class OusterScans {
 
   OusterMetadata metadata_;
   LidarScan scan_;
-  std::vector<bool> received_;  ///< columns of the frame
+  std::vector<bool> received_;                   ///< columns of the frame
   std::optional<std::uint16_t> frame_, before_;  ///< that is read, and the one before
   std::ptrdiff_t most_columns_ = 0;
   std::optional<int> beyond_;

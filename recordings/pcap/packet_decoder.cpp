@@ -102,9 +102,10 @@ class OusterDecoder final : public PacketDecoder {
     }
     auto scan = scans_.add(packet.payload);
     if (const auto beyond = scans_.column_beyond()) {
-      return failure(fmt::format("column {} in a packet of an Ouster, while its metadata have {} "
-                                 "columns (lidar_mode): are they of this recording",
-                                 *beyond, metadata_.columns_per_frame));
+      return failure(
+          fmt::format("column {} in a packet of an Ouster, while its metadata have {} "
+                      "columns (lidar_mode): are they of this recording",
+                      *beyond, metadata_.columns_per_frame));
     }
     return cloud_of(scan, "os_lidar");
   }
@@ -125,7 +126,7 @@ class OusterDecoder final : public PacketDecoder {
  private:
   OusterMetadata metadata_;
   OusterScans scans_;
-  bool framed_ = false;  ///< the frames are given
+  bool framed_ = false;                         ///< the frames are given
   std::array<std::vector<std::byte>, 2> last_;  ///< packets of the LiDAR and of the IMU
 };
 

@@ -35,10 +35,10 @@ struct PcapReader::Impl {
   std::map<std::size_t, std::size_t> sizes = {};   ///< number of payloads by size [bytes]
   std::map<std::string, std::size_t> lidars = {};  ///< number of packets by who sends such
 
-  UdpPackets::Cut cut = {};                        ///< frames, when all is read
-  std::string missing = {};                        ///< of scans, when all is read
-  std::optional<UdpSender> lidar = {};             ///< that all points are of
-  std::vector<std::byte> points = {};              ///< the last packet of them
+  UdpPackets::Cut cut = {};             ///< frames, when all is read
+  std::string missing = {};             ///< of scans, when all is read
+  std::optional<UdpSender> lidar = {};  ///< that all points are of
+  std::vector<std::byte> points = {};   ///< the last packet of them
 
   void note_payload(std::span<const std::byte> payload);
   bool is_of_lidar(const UdpPacket& packet);
@@ -102,9 +102,10 @@ std::string PcapReader::Impl::found() const {
     text += fmt::format("{}{} datagrams of {} bytes", text.empty() ? "" : ", ", count, size);
   }
   if (cut.frames > 0) {
-    text += fmt::format("{}{} packets that the capture cut, to {} of {} bytes (`tcpdump -s 0` "
-                        "keeps them whole)",
-                        text.empty() ? "" : ", ", cut.frames, cut.kept, cut.sent);
+    text += fmt::format(
+        "{}{} packets that the capture cut, to {} of {} bytes (`tcpdump -s 0` "
+        "keeps them whole)",
+        text.empty() ? "" : ", ", cut.frames, cut.kept, cut.sent);
   }
   if (text.empty()) return "no UDP datagrams";
   for (const auto& [maker_name, count] : lidars) {

@@ -11,8 +11,9 @@ namespace aims {
 /// Puts the scans of a spinning LiDAR together from its blocks of firings: a scan ends where the
 /// azimuth passes zero. The revolution that has begun before the first block is left out, unless
 /// that block begins one; where no other is complete, its end and the beginning of the next are one
-/// scan, if they go all around. A block that lies less than 30 degrees before the furthest one comes
-/// late, also across zero, and ends no scan; what it has of the revolution before is left out.
+/// scan, if they go all around. A block that lies less than 30 degrees before the furthest one
+/// comes late, also across zero, and ends no scan; what it has of the revolution before is left
+/// out.
 class Revolutions {
  public:
   /// Begins the block at `azimuth`, over which the head turns by `turn` [0.01 deg]; returns the

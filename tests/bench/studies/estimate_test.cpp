@@ -138,8 +138,7 @@ TEST(Estimate, ATruthOfOneAttitudeIsOfPositions) {
         estimate(config, {folder.path() / "robot.bag"}, [](const Progress&) { return true; });
     ASSERT_TRUE(result) << result.error().message;
     ASSERT_TRUE(result->scores);
-    EXPECT_EQ(result->scores->scoring.truth,
-              turns ? TruthContent::kPose : TruthContent::kPosition);
+    EXPECT_EQ(result->scores->scoring.truth, turns ? TruthContent::kPose : TruthContent::kPosition);
     EXPECT_EQ(std::ranges::count(result->setup.warnings, "truth of positions alone",
                                  &ReadingWarning::reason),
               turns ? 0 : 1);

@@ -175,9 +175,10 @@ TEST_F(CsvTable, RefusesWhatIsMalformed) {
             "t.csv:3: expected 7 cells and a line end, found 8 cells");
   EXPECT_EQ(refusal("time: t\n" + std::string(kImu), header + row),
             "t.csv: expected a column 't' (time)");
-  EXPECT_EQ(refusal("gyro: [wx, wy, w_z]\naccelerometer: [ax, ay, az]\n", header + row),
-            "t.csv: expected a column 'w_z', which the mapping names; there are 'time', 'wx', 'wy', "
-            "'wz', 'ax', 'ay', 'az'");
+  EXPECT_EQ(
+      refusal("gyro: [wx, wy, w_z]\naccelerometer: [ax, ay, az]\n", header + row),
+      "t.csv: expected a column 'w_z', which the mapping names; there are 'time', 'wx', 'wy', "
+      "'wz', 'ax', 'ay', 'az'");
   EXPECT_EQ(refusal("gyro: [wx, wy]\n", header + row),
             "map.yaml: gyro: expected 3 columns or none, found 2");
   EXPECT_EQ(refusal("joint_velocity: [a,b,c,d,e,f,g,h,i,j,k,l]\n", header + row),

@@ -351,15 +351,14 @@ TEST_F(Capture, WhatItCutIsNamed) {
   std::string cut = frame(velodyne_packet(blocks_from(0, 20), 0), 1034);
   cut[8] = static_cast<char>(200);  // kept of 1234 bytes
   cut[9] = 0;
-  EXPECT_NE(refusal(header() + cut + cut)
-                .find("2 packets that the capture cut, to 200 of 1234 bytes"),
-            std::string::npos)
+  EXPECT_NE(
+      refusal(header() + cut + cut).find("2 packets that the capture cut, to 200 of 1234 bytes"),
+      std::string::npos)
       << refusal(header() + cut);
 }
 
 TEST_F(Capture, OfAnOusterWithPacketsTwiceHasEachPointOnce) {
-  ASSERT_TRUE(
-      write_file_atomically(folder_.path() / "c.json", test::ouster_metadata_text()));
+  ASSERT_TRUE(write_file_atomically(folder_.path() / "c.json", test::ouster_metadata_text()));
   std::string once, twice;
   for (const auto& each : test::ouster_lidar_packets(1'700'000'123 * kSecond, 0, 2)) {
     once += frame({each.payload});
@@ -406,9 +405,9 @@ TEST(OusterScans, APacketAfterItsFrameEndsNone) {
   // Column 7 of each frame comes after column 0 of the next.
   for (const auto& [frame, column] : std::vector<std::pair<int, int>>{
            {1, 0}, {1, 3}, {2, 0}, {1, 7}, {2, 3}, {3, 0}, {2, 7}, {3, 3}, {4, 0}, {3, 7}}) {
-    const auto scan = scans.add(dual_packet(static_cast<std::uint16_t>(frame),
-                                            static_cast<std::uint16_t>(column), hit, hit)
-                                    .bytes);
+    const auto scan = scans.add(
+        dual_packet(static_cast<std::uint16_t>(frame), static_cast<std::uint16_t>(column), hit, hit)
+            .bytes);
     if (!scan) continue;
     ++ended;
     EXPECT_EQ(scan->points.size(), 4U) << "two columns of two beams";

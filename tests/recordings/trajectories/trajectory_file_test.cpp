@@ -221,8 +221,8 @@ TEST_F(TrajectoryFiles, UnusablePosesOfATruthAreLeftOutWithTheirCauses) {
 TEST_F(TrajectoryFiles, TablesHaveWWhereTheirHeaderOrTheirStampsTell) {
   const std::vector<std::string> texts = {
       "#timestamp, p_x, p_y, p_z, q_RS_w [], q_x, q_y, q_z, v_x\n1500000000,1,2,3,0.8,0,0,0.6,9\n",
-      "1403636580838555648,1,2,3,0.8,0,0,0.6\n", "sep=;\nt;x;y;z;qx;qy;qz;qw\n1.5;1;2;3;0;0;0.6;0.8\n",
-      "1.5, 1, 2, 3, 0, 0, 0.6, 0.8\n"};
+      "1403636580838555648,1,2,3,0.8,0,0,0.6\n",
+      "sep=;\nt;x;y;z;qx;qy;qz;qw\n1.5;1;2;3;0;0;0.6;0.8\n", "1.5, 1, 2, 3, 0, 0, 0.6, 0.8\n"};
   for (const std::string& text : texts) {
     const auto read = read_trajectory(file("table.csv", text), {});
     ASSERT_TRUE(read) << read.error().message;
@@ -434,8 +434,7 @@ TEST_F(TrajectoryFiles, AnglesWithoutAUnitThatNoRadiansReachAreDegrees) {
 }
 
 TEST_F(TrajectoryFiles, QuaternionsOfZeroAreNone) {
-  const auto read =
-      read_trajectory(file("p.tum", "1 1 2 3 0 0 0 0\n2 4 5 6 0 0 0 0\n"), {});
+  const auto read = read_trajectory(file("p.tum", "1 1 2 3 0 0 0 0\n2 4 5 6 0 0 0 0\n"), {});
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_FALSE(read->has_attitude);
   ASSERT_EQ(read->trajectory.size(), 2U);
