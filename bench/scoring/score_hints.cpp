@@ -161,23 +161,19 @@ std::optional<std::string> stamp_unit_hint(const Trajectory& estimate, const Tra
 
 std::optional<std::string> position_unit_hint(const Trajectory& estimate, const Trajectory& truth,
                                               const ScoreConfig& config) {
-  const auto pairs = compared_pairs(valid_part(estimate), truth, config);
+  auto pairs = compared_pairs(valid_part(estimate), truth, config);
   if (pairs.size() < kFewestPairs) return std::nullopt;
   const double ratio = spread_of(pairs, &PosePair::estimate) / spread_of(pairs, &PosePair::truth);
+  const auto factor_of = [ratio](double factor) { return ratio > 1.0 ? factor : 1.0 / factor; };
   for (const auto& [unit, factor] : {std::pair{"mm", 1e3}, {"cm", 1e2}}) {
-    const auto is_about = [](double value) { return value > 0.8 && value < 1.25; };
-    if (is_about(ratio / factor)) {
-      return fmt::format(
-          "its positions spread {:.3g} times the truth's: likely in {}; expected "
-          "metres",
-          ratio, unit);
-    }
-    if (is_about(1.0 / (ratio * factor))) {
-      return fmt::format(
-          "the truth's positions spread {:.3g} times its own: likely in {}; "
-          "expected metres",
-          1.0 / ratio, unit);
-    }
+    if (std::abs(ratio / factor_of(factor) - 1.0) > kWellFit) continue;
+    for (PosePair& each : pairs) each.estimate.translation /= factor_of(factor);
+    // One that has lost its way is of no other unit.
+    const auto error = ate_rmse(compared(pairs, config));
+    if (!error || !(*error < kWellFit * spread_of(pairs, &PosePair::truth))) return std::nullopt;
+    return fmt::format("{} positions spread {:.3g} times {}: likely in {}; expected metres",
+                       ratio > 1.0 ? "its" : "the truth's", std::max(ratio, 1.0 / ratio),
+                       ratio > 1.0 ? "the truth's" : "its own", unit);
   }
   return std::nullopt;
 }
