@@ -64,6 +64,11 @@ void print_results(const EstimateResult& result, const fs::path& folder,
   print_out("{}, {:.1f} s\n{}\n", result.bag.string(), result.recorded_s,
             to_text(estimate_table(result)));
   for (const EstimatorOutcome& each : result.estimators) {
+    if (each.totals.poses == 0) {
+      for (const auto& [event, count] : each.result.counts) {
+        print_out("note: {}: {}: {}\n", each.name, event, count);
+      }
+    }
     const std::string health = text_of(each.totals.health);
     if (!health.empty()) print_out("health: {}: {}\n", each.name, health);
   }

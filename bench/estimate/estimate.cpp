@@ -2,6 +2,7 @@
 #include "bench/estimate/estimate.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <functional>
@@ -12,12 +13,14 @@
 #include "bench/estimate/estimate_log.hpp"
 #include "bench/estimate/python_classes.hpp"
 #include "bench/estimate/ring_note.hpp"
+#include "bench/estimate/scoring_input.hpp"
 #include "bench/estimate/stream.hpp"
 #include "bench/scoring/score_record.hpp"
 #include "core/files/yaml_config.hpp"
 #include "core/stopwatch.hpp"
 #include "estimator/estimator_spec.hpp"
 #include "recordings/frames/configured_extrinsic.hpp"
+#include "recordings/trajectories/pose_cleaning.hpp"
 
 namespace aims {
 namespace {
@@ -44,10 +47,12 @@ std::vector<ShownScan> scans_to_show(const EstimateResult& result, const ScanKee
 /// Scores the trajectories when the recording holds the truth; what keeps it from that is noted.
 void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
   if (result.truth.empty()) return;
+  Trajectory truth = result.truth;
+  drop_unusable(truth, "the truth", result.setup.notes);
   ScoringInput input;
   input.scoring = config.scoring;
   input.truth = {result.bag.stem().string(), result.bag.string(), "truth of the recording",
-                 result.truth};
+                 std::move(truth)};
   for (const EstimatorOutcome& each : result.estimators) {
     input.estimates.push_back({each.name, each.name, "estimated here", each.result.trajectory});
   }
@@ -62,6 +67,11 @@ void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
     input.waypoint_times = std::move(origin->waypoint_times);
   } else {
     result.setup.notes.push_back(origin.error().message);
+  }
+  resolve_truth_content(input);
+  if (!input.notes.empty()) {
+    result.setup.warnings.push_back(
+        {"truth of positions alone", fmt::format("{}", fmt::join(input.notes, "; "))});
   }
   auto scores = score_trajectories(std::move(input));
   if (scores) {

@@ -53,7 +53,12 @@ Result<Pose> pose_of(std::string_view option, const std::string& text, bool may_
 
 Result<Pose> extrinsic_of(const std::string& text) {
   if (text.empty()) return Pose();
-  return pose_of("--extrinsic", text, false);
+  constexpr double kMaxLever = 100.0;  // of a frame on a robot [m]
+  auto pose = pose_of("--extrinsic", text, false);
+  if (pose && pose->translation.norm() > kMaxLever) {
+    return failure(fmt::format("--extrinsic '{}': expected at most {} m", text, kMaxLever));
+  }
+  return pose;
 }
 
 /// "run/odom" of run.bag:/odom, "aims" of out/aims.tum.
@@ -247,22 +252,10 @@ bool is_constant_attitude(const ScoringInput& input) {
   });
 }
 
-/// Decides what the truth measures, where the configuration leaves it open.
+/// Decides what the truth measures, and how it is compared.
 void resolve_truth(const ScoringRequest& request, ScoringInput& input) {
-  TruthContent& content = input.scoring.truth;
-  const bool open = content == TruthContent::kAuto;
-  if (!input.truth.has_attitude || !request.lever_arm.empty() || !request.lever_arms.empty()) {
-    content = TruthContent::kPosition;
-  }
-  if (open && content != TruthContent::kPosition && is_constant_attitude(input)) {
-    content = TruthContent::kPosition;
-    input.notes.emplace_back("truth: its attitude never changes while the estimates turn");
-  }
-  if (content == TruthContent::kAuto) content = TruthContent::kPose;
-  if (content == TruthContent::kPosition) {
-    input.notes.emplace_back(
-        "truth: of positions alone: aligned by the path, and there are no scores of attitude");
-  }
+  if (!request.lever_arm.empty() || !request.lever_arms.empty()) input.truth.has_attitude = false;
+  resolve_truth_content(input);
   const Trajectory& truth = input.truth.trajectory;
   if (truth.size() < 3 || input.scoring.association != Association::kInterpolated) return;
   std::vector<Duration> steps;
@@ -347,6 +340,21 @@ Result<std::vector<StampList>> stamps_of(const std::filesystem::path& times) {
 }
 
 }  // namespace
+
+void resolve_truth_content(ScoringInput& input) {
+  TruthContent& content = input.scoring.truth;
+  const bool open = content == TruthContent::kAuto;
+  if (!input.truth.has_attitude) content = TruthContent::kPosition;
+  if (open && content != TruthContent::kPosition && is_constant_attitude(input)) {
+    content = TruthContent::kPosition;
+    input.notes.emplace_back("truth: its attitude never changes while the estimates turn");
+  }
+  if (content == TruthContent::kAuto) content = TruthContent::kPose;
+  if (content == TruthContent::kPosition) {
+    input.notes.emplace_back(
+        "truth: of positions alone: aligned by the path, and there are no scores of attitude");
+  }
+}
 
 Result<ScoringInput> read_scoring_input(const ScoringRequest& request) {
   if (!request.names.empty() && request.names.size() != request.estimates.size()) {

@@ -39,6 +39,10 @@ struct ScoringRequest {
   bool is_configured = false;
 };
 
+/// Decides what the truth measures, where the configuration leaves it open: positions alone where
+/// it has no attitude, or one that never changes while an estimate turns; notes it.
+void resolve_truth_content(ScoringInput& input);
+
 /// Reads all that is needed to score. Errors are one line that names the file or the option.
 Result<ScoringInput> read_scoring_input(const ScoringRequest& request);
 

@@ -37,13 +37,13 @@ double span_of(const Trajectory& trajectory) {
   return static_cast<double>(last->stamp) * 1e-9 - static_cast<double>(first->stamp) * 1e-9;
 }
 
-/// Root mean square distance of the true positions from their mean [m].
-double spread_of(std::span<const PosePair> pairs) {
+/// Root mean square distance of the positions of one side from their mean [m].
+double spread_of(std::span<const PosePair> pairs, Pose PosePair::*side) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const PosePair& each : pairs)
-    mean += each.truth.translation / static_cast<double>(pairs.size());
+    mean += (each.*side).translation / static_cast<double>(pairs.size());
   double sum = 0.0;
-  for (const PosePair& each : pairs) sum += (each.truth.translation - mean).squaredNorm();
+  for (const PosePair& each : pairs) sum += ((each.*side).translation - mean).squaredNorm();
   return std::sqrt(sum / static_cast<double>(pairs.size()));
 }
 
@@ -106,37 +106,47 @@ std::string extrinsic_text(const Pose& pose) {
   return fmt::format("{}", fmt::join(numbers, " "));
 }
 
-/// Of attitudes that fit only when the numbers of one side are taken as w, x, y, z. `aligned`: the
+/// Another meaning of the four numbers of a quaternion.
+struct QuaternionReading {
+  Eigen::Quaterniond (*read)(const Eigen::Quaterniond&);
+  const char* text;
+};
+
+constexpr std::array<QuaternionReading, 2> kReadings = {
+    {{[](const Eigen::Quaterniond& q) { return Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w()); },
+      "are read as w, x, y, z: expected x, y, z, w"},
+     {[](const Eigen::Quaterniond& q) { return q.conjugate(); },
+      "are conjugated, as those from the world to the body or of JPL's convention: expected those "
+      "from the body to the world"}}};
+
+/// Of attitudes that fit only when the numbers of one side mean something else. `aligned`: the
 /// same pairs with the estimate aligned by its positions.
-std::optional<std::string> quaternion_order_hint(std::span<const PosePair> pairs,
-                                                 std::span<const PosePair> aligned,
-                                                 double scatter) {
+std::optional<std::string> quaternion_hint(std::span<const PosePair> pairs,
+                                           std::span<const PosePair> aligned, double scatter) {
   if (degrees(scatter) <= kScatter) return std::nullopt;
-  const auto reordered = [](const Eigen::Quaterniond& q) {
-    return Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w());
-  };
   const Eigen::Quaterniond Q =
       aligned.front().estimate.rotation * pairs.front().estimate.rotation.conjugate();
-  std::vector<std::string> fitting;
-  for (const bool of_truth : {true, false}) {
-    std::vector<Eigen::Quaterniond> rotations;
-    for (const PosePair& each : pairs) {
-      const Eigen::Quaterniond& truth = each.truth.rotation;
-      const Eigen::Quaterniond& estimate = each.estimate.rotation;
-      rotations.push_back(of_truth ? reordered(truth).conjugate() * (Q * estimate)
-                                   : truth.conjugate() * (Q * reordered(estimate)));
+  for (const QuaternionReading& reading : kReadings) {
+    std::vector<std::string> fitting;
+    for (const bool of_truth : {true, false}) {
+      std::vector<Eigen::Quaterniond> rotations;
+      for (const PosePair& each : pairs) {
+        const Eigen::Quaterniond& truth = each.truth.rotation;
+        const Eigen::Quaterniond& estimate = each.estimate.rotation;
+        rotations.push_back(of_truth ? reading.read(truth).conjugate() * (Q * estimate)
+                                     : truth.conjugate() * (Q * reading.read(estimate)));
+      }
+      double other = 0.0;
+      middle_of(rotations, other);
+      if (degrees(other) > kScatter || 3.0 * other > scatter) continue;
+      fitting.emplace_back(of_truth ? "the truth's" : "its");
     }
-    double other = 0.0;
-    middle_of(rotations, other);
-    if (degrees(other) > kScatter || 3.0 * other > scatter) continue;
-    fitting.emplace_back(of_truth ? "the truth's" : "its");
+    if (fitting.empty()) continue;
+    // Of a motion in the plane either side may be the one.
+    return fmt::format("the attitudes fit where {} quaternions {}", fmt::join(fitting, " or "),
+                       reading.text);
   }
-  if (fitting.empty()) return std::nullopt;
-  // Of a motion in the plane either side may be the one.
-  return fmt::format(
-      "the attitudes fit where {} quaternions are read as w, x, y, z: expected x, y, "
-      "z, w",
-      fmt::join(fitting, " or "));
+  return std::nullopt;
 }
 
 }  // namespace
@@ -160,6 +170,25 @@ std::optional<std::string> stamp_unit_hint(const Trajectory& estimate, const Tra
   return std::nullopt;
 }
 
+std::optional<std::string> position_unit_hint(const Trajectory& estimate, const Trajectory& truth,
+                                              const ScoreConfig& config) {
+  auto pairs = compared_pairs(valid_part(estimate), truth, config);
+  if (pairs.size() < kFewestPairs) return std::nullopt;
+  const double ratio = spread_of(pairs, &PosePair::estimate) / spread_of(pairs, &PosePair::truth);
+  const auto factor_of = [ratio](double factor) { return ratio > 1.0 ? factor : 1.0 / factor; };
+  for (const auto& [unit, factor] : {std::pair{"mm", 1e3}, {"cm", 1e2}}) {
+    if (std::abs(ratio / factor_of(factor) - 1.0) > kWellFit) continue;
+    for (PosePair& each : pairs) each.estimate.translation /= factor_of(factor);
+    // One that has lost its way is of no other unit.
+    const auto error = ate_rmse(compared(pairs, config));
+    if (!error || !(*error < kWellFit * spread_of(pairs, &PosePair::truth))) return std::nullopt;
+    return fmt::format("{} positions spread {:.3g} times {}: likely in {}; expected metres",
+                       ratio > 1.0 ? "its" : "the truth's", std::max(ratio, 1.0 / ratio),
+                       ratio > 1.0 ? "the truth's" : "its own", unit);
+  }
+  return std::nullopt;
+}
+
 std::optional<std::string> body_frame_hint(const Trajectory& estimate, const Trajectory& truth,
                                            const Pose& T_body_estimate, const ScoreConfig& config) {
   if (config.truth == TruthContent::kPosition) return std::nullopt;
@@ -167,14 +196,14 @@ std::optional<std::string> body_frame_hint(const Trajectory& estimate, const Tra
   if (pairs.size() < kFewestPairs) return std::nullopt;
   const auto best = compared(pairs, config);
   const auto error = ate_rmse(best);
-  if (!error || !(*error < kWellFit * spread_of(pairs))) return std::nullopt;
+  if (!error || !(*error < kWellFit * spread_of(pairs, &PosePair::truth))) return std::nullopt;
   std::vector<Eigen::Quaterniond> rotations;
   for (const PosePair& each : best) {
     rotations.push_back(each.truth.rotation.conjugate() * each.estimate.rotation);
   }
   double scatter = 0.0;
   const Eigen::Quaterniond middle = middle_of(rotations, scatter);
-  if (auto order = quaternion_order_hint(pairs, best, scatter)) return order;
+  if (auto order = quaternion_hint(pairs, best, scatter)) return order;
   const double turned = degrees(middle.angularDistance(Eigen::Quaterniond::Identity()));
   if (turned < kTurned || degrees(scatter) > kScatter) return std::nullopt;
   const Eigen::Quaterniond turn = snapped(middle);

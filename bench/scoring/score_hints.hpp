@@ -14,6 +14,11 @@ namespace aims {
 /// ms reads"; of the opposite, that the truth's stamps are such.
 std::optional<std::string> stamp_unit_hint(const Trajectory& estimate, const Trajectory& truth);
 
+/// Where the positions of one side spread 1000 or 100 times as far as the other's: their likely
+/// unit.
+std::optional<std::string> position_unit_hint(const Trajectory& estimate, const Trajectory& truth,
+                                              const ScoreConfig& config);
+
 /// Where the positions fit and the attitude differs from the truth's by one constant rotation of
 /// the body frame, of more than 10 deg: that rotation and the --extrinsic that takes it away, where
 /// `T_body_estimate` was already applied.

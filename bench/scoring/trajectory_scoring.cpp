@@ -109,7 +109,7 @@ void note_causes(const TrajectoryScores& result, std::vector<std::string>& notes
   for (const ScoredEstimate& each : result.estimates) {
     const Trajectory& given = each.given.trajectory;
     for (const auto& hint :
-         {stamp_unit_hint(given, truth),
+         {stamp_unit_hint(given, truth), position_unit_hint(given, truth, result.scoring),
           body_frame_hint(given, truth, each.given.T_body_estimate, result.scoring)}) {
       if (hint) notes.push_back(fmt::format("{}: {}", each.given.name, *hint));
     }
@@ -158,10 +158,11 @@ ScoredEstimate score_one(SourcedTrajectory estimate, const ScoringInput& input) 
 /// What the reader of a trajectory noted of the poses that it left out.
 std::string dropped_from(const std::string& source, const std::vector<std::string>& notes) {
   const auto of_source = [&](const std::string& note) {
-    return note.starts_with(source + ": ") && note.find(" dropped: ") != std::string::npos;
+    return note.starts_with(source + ":") && note.find(" dropped: ") != std::string::npos;
   };
   const auto found = std::ranges::find_if(notes, of_source);
-  return found == notes.end() ? "" : "; " + found->substr(source.size() + 2);
+  // The source may have its topic behind it.
+  return found == notes.end() ? "" : "; " + found->substr(found->find(": ", source.size()) + 2);
 }
 
 }  // namespace

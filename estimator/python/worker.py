@@ -52,11 +52,19 @@ class Rig:
         self.imu_rate, self.leg_rate = float(cells[32]), float(cells[33])
 
 
+def is_matrix(value):
+    """Whether that is a pose, also as nested lists."""
+    try:
+        return np.shape(value) == (4, 4)
+    except ValueError:  # of rows of different lengths
+        return False
+
+
 def poses_of(returned, stamp):
     """What a method returned as a list of (stamp [ns], T_odom_body (4, 4) float64)."""
     if returned is None:
         return []
-    if isinstance(returned, list):
+    if isinstance(returned, list) and not is_matrix(returned):
         return [pose for each in returned for pose in poses_of(each, stamp)]
     if isinstance(returned, tuple):
         if len(returned) != 2 or not hasattr(returned[0], "__index__"):

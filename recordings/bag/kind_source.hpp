@@ -47,8 +47,11 @@ class KindSource : public MessageSource {
   /// Makes all messages once, for their numbers and times, and rewinds.
   Result<void> count();
 
-  /// Marks the summary: the file was not read to its end.
-  void set_incomplete() { summary_.indexed = summary_.closed = false; }
+  /// Marks the summary: the file was not read to its end; `lost`: what is behind [bytes].
+  void set_incomplete(std::uint64_t lost) {
+    summary_.indexed = summary_.closed = false;
+    summary_.lost_bytes = lost;
+  }
 
  private:
   std::vector<BagConnection> connections_;

@@ -2,6 +2,7 @@
 #include "recordings/csv/csv_reader.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -47,7 +48,8 @@ Result<Columns> columns_of(const CsvColumns& csv, const std::vector<std::string>
   for (const std::string& name : names) {
     if (!csv.has(name)) {
       return failure(
-          fmt::format("{}: expected a column '{}', which the mapping names", file, name));
+          fmt::format("{}: expected a column '{}', which the mapping names; there are '{}'", file,
+                      name, fmt::join(csv.header(), "', '")));
     }
     auto numbers = csv.numbers(name);
     if (!numbers) return tl::unexpected(numbers.error());
@@ -72,6 +74,21 @@ std::optional<Time> time_of(const std::string& cell, CsvTimeUnit unit) {
   return static_cast<Time>(std::llround(*number * scale));
 }
 
+/// What the digits of a time since 1970 that is not read tell of its unit.
+std::string likely_unit(const std::string& cell) {
+  const std::size_t digits = std::min(cell.find_first_not_of("0123456789"), cell.size());
+  const char* unit = digits >= 19 ? "ns" : digits == 16 ? "us" : digits == 13 ? "ms" : nullptr;
+  return unit == nullptr ? "" : fmt::format("; likely time_unit: {}", unit);
+}
+
+/// The table without the line that names its separator to a spreadsheet ("sep=,"), and with lines
+/// that end in a line feed where all end in a carriage return alone.
+std::string plain_text(std::string text) {
+  if (text.find('\n') == std::string::npos) std::ranges::replace(text, '\r', '\n');
+  if (text.starts_with("sep=")) text.erase(0, text.find('\n') + 1);
+  return text;
+}
+
 Result<std::vector<Time>> times_of(const CsvColumns& csv, const CsvMapping& mapping,
                                    const std::string& file) {
   if (!csv.has(mapping.time)) {
@@ -82,8 +99,8 @@ Result<std::vector<Time>> times_of(const CsvColumns& csv, const CsvMapping& mapp
     const auto time = time_of(cell, mapping.time_unit);
     const Time least = times.empty() ? 0 : times.back();
     if (!time || *time < least) {
-      return failure(fmt::format("{}: row {}: expected a time >= {} ns, found '{}'", file,
-                                 times.size() + 1, least, cell));
+      return failure(fmt::format("{}: row {}: expected a time >= {} ns, found '{}'{}", file,
+                                 times.size() + 1, least, cell, likely_unit(cell)));
     }
     times.push_back(*time);
   }
@@ -93,7 +110,7 @@ Result<std::vector<Time>> times_of(const CsvColumns& csv, const CsvMapping& mapp
 Result<Table> read_table(const CsvMapping& mapping, const fs::path& file, bool recover) {
   const auto text = read_text_file(file, kMaxTableBytes);
   if (!text) return tl::unexpected(text.error());
-  const auto csv = CsvColumns::parse(*text, file.string(), {},
+  const auto csv = CsvColumns::parse(plain_text(*text), file.string(), {},
                                      recover ? CsvOrigin::kDamaged : CsvOrigin::kForeign);
   if (!csv) return tl::unexpected(csv.error());
   Table table;

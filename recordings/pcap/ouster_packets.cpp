@@ -190,14 +190,17 @@ std::optional<LidarScan> OusterScans::add(std::span<const std::byte> packet) {
         load_number<std::uint16_t>(at.frame_in_column ? column + at.frame : &packet[at.frame]);
     const std::size_t status = at.column_footer > 0 ? column_size - at.column_footer : at.status;
     if ((std::to_integer<int>(column[status]) & 1) == 0) continue;  // not measured
+    if (frame == before_ && frame != frame_) continue;              // late
     if (frame != frame_) {
       if (auto whole = finish(); whole) ended = std::move(whole);
       received_.assign(static_cast<std::size_t>(metadata_.columns_per_frame), false);
-      frame_ = frame;
+      before_ = std::exchange(frame_, frame);
       frames_ = std::min(frames_ + 1, 2);
     }
     const auto measurement = load_number<std::uint16_t>(column + 8);
-    if (measurement < received_.size()) received_[measurement] = true;
+    if (measurement >= received_.size()) beyond_ = measurement;
+    if (measurement >= received_.size() || received_[measurement]) continue;
+    received_[measurement] = true;
     add_column(column);
   }
   return ended;
@@ -205,6 +208,7 @@ std::optional<LidarScan> OusterScans::add(std::span<const std::byte> packet) {
 
 std::optional<LidarScan> OusterScans::finish(bool at_end) {
   const auto columns = std::ranges::count(received_, true);
+  most_columns_ = std::max(most_columns_, columns);
   const bool complete = columns >= metadata_.window_columns;
   LidarScan scan = std::exchange(scan_, {});
   const bool inner = frames_ > 1 && !at_end;

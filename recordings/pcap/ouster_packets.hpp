@@ -45,11 +45,17 @@ class OusterScans {
   static constexpr std::size_t kImuPacketSize = 48;
 
   /// Adds a packet of the LiDAR; returns the scan that it ends. The first frame is left out where
-  /// it is incomplete.
+  /// it is incomplete. Columns that come twice, or after their frame, are left out.
   std::optional<LidarScan> add(std::span<const std::byte> packet);
 
   /// The scan in progress; of the first and the last frame only if it is complete.
   std::optional<LidarScan> finish(bool at_end = false);
+
+  /// Columns of the frame that has most.
+  std::ptrdiff_t most_columns() const { return most_columns_; }
+
+  /// A column that the metadata do not have.
+  std::optional<int> column_beyond() const { return beyond_; }
 
   /// The sample in a packet of the IMU: specific force [m/s^2], angular velocity [rad/s].
   static ImuSample imu_of(std::span<const std::byte> packet);
@@ -62,8 +68,10 @@ class OusterScans {
 
   OusterMetadata metadata_;
   LidarScan scan_;
-  std::vector<bool> received_;  ///< columns of the frame
-  std::optional<std::uint16_t> frame_;
+  std::vector<bool> received_;                   ///< columns of the frame
+  std::optional<std::uint16_t> frame_, before_;  ///< that is read, and the one before
+  std::ptrdiff_t most_columns_ = 0;
+  std::optional<int> beyond_;
   int frames_ = 0;  ///< that have begun
 };
 

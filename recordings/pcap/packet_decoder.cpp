@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recordings/pcap/packet_decoder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -14,21 +17,33 @@ namespace {
 
 using Scan = Result<std::optional<LidarScan>>;
 
-/// The scan that a packet ends; nothing for packets that are no points.
+bool has_points_of(const VelodyneScans&, std::span<const std::byte> payload) {
+  return is_velodyne_packet(payload);
+}
+
+bool has_points_of(const HesaiScans&, std::span<const std::byte> payload) {
+  return is_hesai_packet(payload);
+}
+
+bool has_points_of(const RobosenseScans&, std::span<const std::byte> payload) {
+  return is_robosense_packet(payload);
+}
+
+/// The scan that a packet of points ends.
 Scan scan_of(VelodyneScans& scans, const UdpPacket& packet) {
-  if (packet.payload.size() != kVelodynePacketSize) return std::nullopt;
   return scans.add(packet.payload, packet.time);
 }
 
-Scan scan_of(HesaiScans& scans, const UdpPacket& packet) {
-  if (!is_hesai_packet(packet.payload)) return std::nullopt;
+template <class Scans>
+Scan scan_of(Scans& scans, const UdpPacket& packet) {
   return scans.add(packet.payload);
 }
 
-Scan scan_of(RobosenseScans& scans, const UdpPacket& packet) {
-  if (is_robosense_information(packet.payload)) scans.inform(packet.payload);
-  if (!is_robosense_packet(packet.payload)) return std::nullopt;
-  return scans.add(packet.payload);
+template <class Scans>
+void inform(Scans&, std::span<const std::byte>) {}
+
+void inform(RobosenseScans& scans, std::span<const std::byte> payload) {
+  if (is_robosense_information(payload)) scans.inform(payload);
 }
 
 std::optional<PacketMessage> cloud_of(const std::optional<LidarScan>& scan,
@@ -47,12 +62,18 @@ class ScanDecoder final : public PacketDecoder {
     // A capture of any interface has packets twice.
     if (std::ranges::equal(packet.payload, last_)) return std::nullopt;
     last_.assign(packet.payload.begin(), packet.payload.end());
+    inform(scans_, packet.payload);
+    if (!has_points(packet.payload)) return std::nullopt;
     const auto scan = scan_of(scans_, packet);
     if (!scan) return tl::unexpected(scan.error());
     return cloud_of(*scan, frame_);
   }
 
   std::optional<PacketMessage> finish() override { return cloud_of(scans_.finish(), frame_); }
+
+  bool has_points(std::span<const std::byte> payload) const override {
+    return has_points_of(scans_, payload);
+  }
 
  private:
   std::string frame_;
@@ -67,7 +88,10 @@ class OusterDecoder final : public PacketDecoder {
 
   Result<std::optional<PacketMessage>> add(const UdpPacket& packet) override {
     const bool imu = packet.payload.size() == OusterScans::kImuPacketSize;
-    if (!imu && packet.payload.size() != scans_.lidar_packet_size()) return std::nullopt;
+    if (!imu && !has_points(packet.payload)) return std::nullopt;
+    std::vector<std::byte>& last = last_.at(imu ? 1 : 0);
+    if (std::ranges::equal(packet.payload, last)) return std::nullopt;
+    last.assign(packet.payload.begin(), packet.payload.end());
     if (!std::exchange(framed_, true)) {
       if (!imu) static_cast<void>(scans_.add(packet.payload));  // the first ends no scan
       return PacketMessage{kFrames, ouster_frames(metadata_, packet.time)};
@@ -76,17 +100,34 @@ class OusterDecoder final : public PacketDecoder {
       const ImuSample sample = OusterScans::imu_of(packet.payload);
       return PacketMessage{kImu, imu_message({0, sample.stamp, "os_imu"}, sample)};
     }
-    return cloud_of(scans_.add(packet.payload), "os_lidar");
+    auto scan = scans_.add(packet.payload);
+    if (const auto beyond = scans_.column_beyond()) {
+      return failure(
+          fmt::format("column {} in a packet of an Ouster, while its metadata have {} "
+                      "columns (lidar_mode): are they of this recording",
+                      *beyond, metadata_.columns_per_frame));
+    }
+    return cloud_of(scan, "os_lidar");
   }
 
   std::optional<PacketMessage> finish() override {
     return cloud_of(scans_.finish(true), "os_lidar");
   }
 
+  bool has_points(std::span<const std::byte> payload) const override {
+    return payload.size() == scans_.lidar_packet_size();
+  }
+
+  std::string missing() const override {
+    return fmt::format("the fullest scan has {} of {} columns", scans_.most_columns(),
+                       metadata_.window_columns);
+  }
+
  private:
   OusterMetadata metadata_;
   OusterScans scans_;
-  bool framed_ = false;  ///< the frames are given
+  bool framed_ = false;                         ///< the frames are given
+  std::array<std::vector<std::byte>, 2> last_;  ///< packets of the LiDAR and of the IMU
 };
 
 }  // namespace

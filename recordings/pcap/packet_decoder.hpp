@@ -30,6 +30,10 @@ class PacketDecoder {
   virtual Result<std::optional<PacketMessage>> add(const UdpPacket& packet) = 0;
   /// The last scan, if it is complete.
   virtual std::optional<PacketMessage> finish() = 0;
+  /// Whether the packet holds points.
+  virtual bool has_points(std::span<const std::byte> payload) const = 0;
+  /// What scans lack to be complete; empty where that is not known.
+  virtual std::string missing() const { return ""; }
 };
 
 /// Of a Velodyne VLP-16; `frame` is that of the clouds.

@@ -35,7 +35,13 @@ struct PcapReader::Impl {
   std::map<std::size_t, std::size_t> sizes = {};   ///< number of payloads by size [bytes]
   std::map<std::string, std::size_t> lidars = {};  ///< number of packets by who sends such
 
+  UdpPackets::Cut cut = {};             ///< frames, when all is read
+  std::string missing = {};             ///< of scans, when all is read
+  std::optional<UdpSender> lidar = {};  ///< that all points are of
+  std::vector<std::byte> points = {};   ///< the last packet of them
+
   void note_payload(std::span<const std::byte> payload);
+  bool is_of_lidar(const UdpPacket& packet);
   void recognize(std::span<const std::byte> payload);
   std::unique_ptr<PacketDecoder> new_decoder() const;
   std::size_t packets_seen() const {
@@ -49,6 +55,28 @@ struct PcapReader::Impl {
 void PcapReader::Impl::note_payload(std::span<const std::byte> payload) {
   if (sizes.size() < 100) ++sizes[payload.size()];
   if (const std::string lidar = lidar_of_packet(payload); !lidar.empty()) ++lidars[lidar];
+}
+
+/// Whether the packet is none of another LiDAR; one that is captured twice, on its way to a relay
+/// and from there, is no other.
+bool PcapReader::Impl::is_of_lidar(const UdpPacket& packet) {
+  if (!decoder->has_points(packet.payload)) return true;
+  const bool same = !lidar || *lidar == packet.sender;
+  if (!same) return std::ranges::equal(packet.payload, points);
+  lidar = packet.sender;
+  points.assign(packet.payload.begin(), packet.payload.end());
+  return true;
+}
+
+/// What refuses the packets of two LiDARs, and how to take those of one.
+std::string two_lidars(const UdpSender& first, const UdpSender& second) {
+  const std::string filter = first.address != second.address
+                                 ? "src host " + address_text(first.address)
+                                 : fmt::format("udp dst port {}", first.port);
+  return fmt::format(
+      "expected the packets of one LiDAR, found those of {} and of {}: `tcpdump -r IN -w OUT '{}'` "
+      "keeps those of the first",
+      text_of(first), text_of(second), filter);
 }
 
 /// Changes to the decoder of the first packet that tells whose it is.
@@ -73,10 +101,17 @@ std::string PcapReader::Impl::found() const {
     if (count * 20 < packets_seen()) continue;
     text += fmt::format("{}{} datagrams of {} bytes", text.empty() ? "" : ", ", count, size);
   }
-  if (text.empty()) return "no UDP datagrams";
-  for (const auto& [lidar, count] : lidars) {
-    if (count * 20 >= packets_seen()) text += fmt::format("; packets of {}", lidar);
+  if (cut.frames > 0) {
+    text += fmt::format(
+        "{}{} packets that the capture cut, to {} of {} bytes (`tcpdump -s 0` "
+        "keeps them whole)",
+        text.empty() ? "" : ", ", cut.frames, cut.kept, cut.sent);
   }
+  if (text.empty()) return "no UDP datagrams";
+  for (const auto& [maker_name, count] : lidars) {
+    if (count * 20 >= packets_seen()) text += fmt::format("; packets of {}", maker_name);
+  }
+  if (!missing.empty() && lidar) text += "; " + missing;
   return text;
 }
 
@@ -130,9 +165,11 @@ Result<std::optional<KindSource::Made>> PcapReader::make() {
     if (!packet && !pcap.recover) {
       return failure(packet.error().message + "; --recover reads the part before");
     }
-    if (!packet) set_incomplete();
+    if (!packet) set_incomplete(pcap.packets.file().size() - pcap.packets.position());
     if (!packet || !*packet) {
       auto last = pcap.decoder->finish();
+      pcap.missing = pcap.decoder->missing();
+      pcap.cut = pcap.packets.cut();
       if (!last) return std::optional<Made>();
       pcap.message = std::move(*last);
       return Made{kScan, pcap.time, pcap.message.bytes.view(), pcap.packets.file().size()};
@@ -140,6 +177,9 @@ Result<std::optional<KindSource::Made>> PcapReader::make() {
     pcap.note_payload((*packet)->payload);
     const UdpPacket& each = **packet;
     pcap.recognize(each.payload);
+    if (!pcap.is_of_lidar(each)) {
+      return pcap.packets.file().refuse(each.position, two_lidars(*pcap.lidar, each.sender));
+    }
     auto completed = pcap.decoder->add(each);
     if (!completed) return pcap.packets.file().refuse(each.position, completed.error().message);
     if (!*completed) continue;

@@ -15,7 +15,13 @@ constexpr std::size_t kMostEarly = 1'000'000;  ///< no sensor has as many return
 
 std::optional<LidarScan> Revolutions::begin_block(int azimuth, int turn) {
   std::optional<LidarScan> ended;
-  if (azimuth_ && azimuth < *azimuth_ - kLate) {
+  const int ahead = azimuth_ ? (azimuth - *azimuth_ + kRevolution) % kRevolution : 0;
+  const bool late = ahead > kRevolution - kLate;
+  // Of the revolution that has ended.
+  overdue_ = late && azimuth > *azimuth_;
+  block_ = azimuth;
+  if (late) return ended;
+  if (azimuth_ && azimuth < *azimuth_) {
     if (whole_ && !scan_.points.empty()) ended = std::move(scan_);
     scan_ = LidarScan();
     whole_ = true;
@@ -40,8 +46,9 @@ void Revolutions::add_to(LidarScan& scan, LidarPoint point, Time time) {
 }
 
 void Revolutions::add(LidarPoint point, Time time) {
+  if (overdue_) return;
   if (whole_) return add_to(scan_, point, time);
-  if (!ended_ && early_.size() < kMostEarly) early_.push_back({*azimuth_, point, time});
+  if (!ended_ && early_.size() < kMostEarly) early_.push_back({block_, point, time});
 }
 
 /// The returns before the azimuth passed zero from where those behind it end.

@@ -11,8 +11,9 @@ namespace aims {
 /// Puts the scans of a spinning LiDAR together from its blocks of firings: a scan ends where the
 /// azimuth passes zero. The revolution that has begun before the first block is left out, unless
 /// that block begins one; where no other is complete, its end and the beginning of the next are one
-/// scan, if they go all around. A block that lies less than 30 degrees before the last one comes
-/// late, and ends no scan.
+/// scan, if they go all around. A block that lies less than 30 degrees before the furthest one
+/// comes late, also across zero, and ends no scan; what it has of the revolution before is left
+/// out.
 class Revolutions {
  public:
   /// Begins the block at `azimuth`, over which the head turns by `turn` [0.01 deg]; returns the
@@ -20,7 +21,7 @@ class Revolutions {
   std::optional<LidarScan> begin_block(int azimuth, int turn);
 
   /// Whether points of the present revolution may be part of a scan.
-  bool is_wanted() const { return whole_ || !ended_; }
+  bool is_wanted() const { return !overdue_ && (whole_ || !ended_); }
 
   /// Adds a return of the present revolution; its time offset is set from `time`.
   void add(LidarPoint point, Time time);
@@ -41,10 +42,12 @@ class Revolutions {
 
   LidarScan scan_;
   std::vector<Early> early_;
+  int block_ = 0;               ///< azimuth of the present block [0.01 deg]
   int turn_ = 0;                ///< of the head over the last block [0.01 deg]
   bool whole_ = false;          ///< the present revolution began at its start
   bool ended_ = false;          ///< a scan was complete
-  std::optional<int> azimuth_;  ///< of the last block [0.01 deg]
+  bool overdue_ = false;        ///< the present block is of the revolution before
+  std::optional<int> azimuth_;  ///< of the furthest block [0.01 deg]
 };
 
 }  // namespace aims

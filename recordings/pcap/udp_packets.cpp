@@ -57,6 +57,15 @@ std::span<const std::byte> ip_of(std::uint32_t link, std::span<const std::byte> 
 
 }  // namespace
 
+std::string address_text(std::uint32_t address) {
+  return fmt::format("{}.{}.{}.{}", address >> 24, address >> 16 & 0xff, address >> 8 & 0xff,
+                     address & 0xff);
+}
+
+std::string text_of(const UdpSender& sender) {
+  return fmt::format("{} to port {}", address_text(sender.address), sender.port);
+}
+
 std::uint32_t UdpPackets::number(const std::byte* bytes) const {
   return load_number<std::uint32_t>(bytes, swapped_ ? std::endian::big : std::endian::little);
 }
@@ -94,6 +103,7 @@ Result<UdpPackets> UdpPackets::open(const std::filesystem::path& path) {
 void UdpPackets::rewind() {
   position_ = kFileHeader;
   open_.clear();
+  cut_ = {};
 }
 
 Result<std::optional<UdpPacket>> UdpPackets::next() {
@@ -105,6 +115,8 @@ Result<std::optional<UdpPacket>> UdpPackets::next() {
       return file_.refuse(position_, fmt::format("expected a frame of at most {} bytes, found {}",
                                                  kMaxFrame, size));
     }
+    const std::uint32_t sent = number(&header[12]);
+    if (sent > size && ++cut_.frames == 1) cut_ = {1, size, sent};
     frame_.resize(size);
     const std::uint64_t at = position_;
     if (auto got = file_.read(at + kFrameHeader, frame_); !got) return tl::unexpected(got.error());
@@ -112,7 +124,7 @@ Result<std::optional<UdpPacket>> UdpPackets::next() {
     const auto payload = datagram(ip_of(link_, frame_));
     if (!payload) continue;
     const Time time = Time{number(header.data())} * kSecond + Time{number(&header[4])} * tick_;
-    return UdpPacket{time, *payload, at};
+    return UdpPacket{time, *payload, at, sender_};
   }
   return std::optional<UdpPacket>();
 }
@@ -135,6 +147,7 @@ std::optional<std::span<const std::byte>> UdpPackets::datagram(std::span<const s
   if (!udp || udp->size() < 8) return std::nullopt;
   const std::size_t length = big16(&(*udp)[4]);
   if (length < 8 || length > udp->size()) return std::nullopt;
+  sender_ = {load_number<std::uint32_t>(&ip[12], std::endian::big), big16(&(*udp)[2])};
   return udp->subspan(8, length - 8);
 }
 

@@ -45,6 +45,11 @@ Time packet_time(std::uint32_t microseconds, Time capture) {
 
 }  // namespace
 
+bool is_velodyne_packet(std::span<const std::byte> payload) {
+  return payload.size() == kVelodynePacketSize &&
+         load_number<std::uint16_t>(payload.data()) == kFlag;
+}
+
 void VelodyneScans::set_model(const VelodyneModel& model) {
   model_ = &model;
   for (std::size_t laser = 0; laser < model.lasers; ++laser) rings_[laser] = ring_of(model, laser);

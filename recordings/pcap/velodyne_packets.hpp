@@ -17,6 +17,9 @@ namespace aims {
 /// Bytes of a data packet of a Velodyne sensor.
 inline constexpr std::size_t kVelodynePacketSize = 1206;
 
+/// Whether these are the blocks of such a packet.
+bool is_velodyne_packet(std::span<const std::byte> payload);
+
 /// Puts the scans of a VLP-16, Puck Hi-Res, HDL-32E or VLP-32C together from its data packets
 /// (their user manuals): a scan ends where the azimuth passes zero. Each point has the time of its
 /// firing; its stamps are the microseconds of the packet in the hour that is nearest to the

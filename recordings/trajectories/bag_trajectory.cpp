@@ -232,6 +232,9 @@ Result<TrajectoryFile> read_bag_trajectory(const fs::path& file, const std::stri
   const std::string name = fmt::format("{}:{}", file.string(), *chosen);
   if (result.trajectory.empty()) return failure(name + ": expected poses, found none");
   stamp_by_record_time(result.trajectory, record_times, name, result.notes);
+  if (options.rules == PoseRules::kStrict && result.has_attitude) {
+    result.has_attitude = !is_of_positions(result.trajectory, name, result.notes);
+  }
   normalize_rounded(result.trajectory, name, result.notes);
   if (options.rules == PoseRules::kStrict) drop_unusable(result.trajectory, name, result.notes);
   return result;

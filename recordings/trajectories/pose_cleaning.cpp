@@ -9,6 +9,8 @@
 #include <cmath>
 #include <optional>
 
+#include "recordings/median.hpp"
+
 namespace aims {
 namespace {
 
@@ -53,6 +55,44 @@ std::vector<bool> far_from(const Trajectory& poses) {
   return far;
 }
 
+/// Of the step to a pose from the one before [m/s].
+double speed_to(const Trajectory& poses, std::size_t i) {
+  const double time = to_seconds(poses[i].stamp - poses[i - 1].stamp);
+  return (poses[i].pose.translation - poses[i - 1].pose.translation).norm() / time;
+}
+
+/// Whether the poses before the first that is set are none of a start: to that one is a leap, both
+/// faster than robots are and than the steps behind it.
+bool starts_lost(const Trajectory& poses, std::size_t first_set) {
+  constexpr double kRobot = 6.0;  // [m/s]
+  constexpr double kLeap = 3.0;   // times the median step
+  if (first_set == 0 || first_set >= poses.size() || !is_far(poses[first_set].pose)) return false;
+  std::vector<double> speeds;
+  for (std::size_t i = first_set + 1; i < poses.size(); ++i) {
+    if (!is_unset(poses[i].pose) && !is_unset(poses[i - 1].pose))
+      speeds.push_back(speed_to(poses, i));
+  }
+  const double usual = speeds.empty() ? 0.0 : *upper_median(std::move(speeds));
+  return speed_to(poses, first_set) > std::max(kRobot, kLeap * usual);
+}
+
+/// Removes the unset poses between others that are far from the origin; yields how many.
+std::size_t drop_lost(Trajectory& poses) {
+  const auto set = std::ranges::find_if_not(poses, is_unset, &StampedPose::pose);
+  bool before = starts_lost(poses, static_cast<std::size_t>(set - poses.begin()));
+  const std::vector<bool> far = far_from(poses);
+  Trajectory kept;
+  kept.reserve(poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (before && far[i] && is_unset(poses[i].pose)) continue;
+    before = is_far(poses[i].pose);
+    kept.push_back(poses[i]);
+  }
+  const std::size_t lost = poses.size() - kept.size();
+  poses = std::move(kept);
+  return lost;
+}
+
 std::string text_of(const std::array<std::size_t, kFaults>& counts) {
   constexpr std::array<const char*, kFaults> kTexts = {
       "",
@@ -69,6 +109,16 @@ std::string text_of(const std::array<std::size_t, kFaults>& counts) {
 }
 
 }  // namespace
+
+bool is_of_positions(Trajectory& poses, const std::string& name, std::vector<std::string>& notes) {
+  const auto is_zero = [](const StampedPose& each) {
+    return each.pose.rotation.coeffs().isZero(0.0);
+  };
+  if (poses.empty() || !std::ranges::all_of(poses, is_zero)) return false;
+  for (StampedPose& each : poses) each.pose.rotation.setIdentity();
+  notes.push_back(fmt::format("{}: all quaternions are zero: positions alone", name));
+  return true;
+}
 
 void normalize_rounded(Trajectory& poses, const std::string& name,
                        std::vector<std::string>& notes) {
@@ -107,19 +157,14 @@ void drop_unusable(Trajectory& poses, const std::string& name, std::vector<std::
   usable.reserve(poses.size());
   std::array<std::size_t, kFaults> counts{};
   std::optional<Time> last;
-  const std::vector<bool> far = far_from(poses);
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const StampedPose& each = poses[i];
-    Fault fault = fault_of(each, last);
-    // Unset between others that are far from the origin.
-    const bool lost =
-        is_unset(each.pose) && far[i] && !usable.empty() && is_far(usable.back().pose);
-    if (fault == kNoFault && lost) fault = kLost;
+  for (const StampedPose& each : poses) {
+    const Fault fault = fault_of(each, last);
     ++counts[fault];
     if (fault != kNoFault) continue;
     last = each.stamp;
     usable.push_back(each);
   }
+  counts[kLost] = drop_lost(usable);
   if (usable.size() < poses.size()) {
     notes.push_back(fmt::format("{}: {} of {} poses dropped: {}", name,
                                 poses.size() - usable.size(), poses.size(), text_of(counts)));

@@ -8,11 +8,15 @@
 
 namespace aims {
 
+/// Whether all quaternions are zero, as where positions are written as poses: they become the
+/// identity, which is noted.
+bool is_of_positions(Trajectory& poses, const std::string& name, std::vector<std::string>& notes);
+
 /// Normalizes quaternions that are off unit norm as rounded decimals are, and notes it.
 void normalize_rounded(Trajectory& poses, const std::string& name, std::vector<std::string>& notes);
 
-/// Removes poses that are not finite, no rotations, or stamped not after the one before; notes how
-/// many of each.
+/// Removes poses that are not finite, no rotations, stamped not after the one before, or of a body
+/// that a motion capture had lost (or not found yet); notes how many of each.
 void drop_unusable(Trajectory& poses, const std::string& name, std::vector<std::string>& notes);
 
 /// "2 not finite, 1 stamped not after the one before"; empty where all poses are usable.

@@ -103,9 +103,47 @@ PoseColumns with_angles(const std::vector<Heading>& headings, PoseColumns column
     if (found == headings.end()) return columns;
     angles[i] = static_cast<std::size_t>(found - headings.begin());
     columns.rpy_in_degrees = columns.rpy_in_degrees || is_one_of(found->unit, {"deg", "degrees"});
+    columns.rpy_has_unit = columns.rpy_has_unit || !found->unit.empty();
   }
   columns.rpy = angles;
   return columns;
+}
+
+/// Puts in the columns of the position, each with the unit of its heading.
+void set_position(const std::vector<Heading>& headings, std::size_t axis, std::size_t column,
+                  PoseColumns& columns) {
+  columns.position[axis] = column;
+  const std::string& unit = headings[column].unit;
+  columns.position_decimals = unit == "mm" ? 3 : unit == "cm" ? 2 : 0;
+}
+
+/// Whether a name, or what is behind its last underscore, is a direction.
+std::optional<std::size_t> direction_column(const std::vector<Heading>& headings,
+                                            std::initializer_list<std::string_view> names) {
+  for (std::size_t i = 0; i < headings.size(); ++i) {
+    const std::string part = last_part(headings[i].name);
+    if (is_one_of(part, names) || is_one_of(part.substr(part.rfind('_') + 1), names)) return i;
+  }
+  return std::nullopt;
+}
+
+/// The columns of x, y and z, else of east, north, and up or down; false without.
+bool find_position(const std::vector<Heading>& headings, PoseColumns& columns) {
+  std::array<std::optional<std::size_t>, 3> found;
+  for (std::size_t i = 0; i < 3; ++i) found[i] = column_of(headings, "xyz"[i], false);
+  if (!found[0] || !found[1] || !found[2]) {
+    found = {direction_column(headings, {"e", "east", "easting"}),
+             direction_column(headings, {"n", "north", "northing"}),
+             direction_column(headings, {"u", "up", "h", "height", "altitude", "elevation"})};
+    const auto down = direction_column(headings, {"d", "down"});
+    columns.is_down = !found[2] && down;
+    if (columns.is_down) found[2] = down;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!found[i]) return false;
+    set_position(headings, i, *found[i], columns);
+  }
+  return true;
 }
 
 }  // namespace
@@ -135,17 +173,12 @@ std::optional<PoseColumns> named_columns(std::span<const std::string_view> heade
   if (nanoseconds != headings.end()) {
     columns.nanoseconds = static_cast<std::size_t>(nanoseconds - headings.begin());
   }
-  constexpr std::string_view kAxes = "xyzw";
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto column = column_of(headings, kAxes[i], false);
-    if (!column) return std::nullopt;
-    columns.position[i] = *column;
-    const std::string& unit = headings[*column].unit;
-    columns.position_decimals = unit == "mm" ? 3 : unit == "cm" ? 2 : 0;
-  }
+  // Axes of attitudes beside a position that points down are of no one convention.
+  if (!find_position(headings, columns)) return std::nullopt;
+  if (columns.is_down) return columns;
   std::array<std::size_t, 4> quaternion{};
   for (std::size_t i = 0; i < 4; ++i) {
-    const auto column = column_of(headings, kAxes[i], true);
+    const auto column = column_of(headings, "xyzw"[i], true);
     if (!column) return with_angles(headings, columns);
     quaternion[i] = *column;
   }

@@ -18,10 +18,12 @@ struct PoseColumns {
   std::optional<std::size_t> nanoseconds;  ///< of the second that `stamp` counts
   StampUnit unit = StampUnit::kByDigits;
   std::array<std::size_t, 3> position = {1, 2, 3};
+  bool is_down = false;       ///< the third of the position points down, and attitudes are not read
   int position_decimals = 0;  ///< by which their unit lies below metres: of cm 2, of mm 3
   std::optional<std::array<std::size_t, 4>> quaternion_xyzw;
   std::optional<std::array<std::size_t, 3>> rpy;  ///< in place of the quaternion
   bool rpy_in_degrees = false;                    ///< else rad
+  bool rpy_has_unit = false;                      ///< the header states it
   std::optional<std::size_t> matrix;  ///< first of the 12 of a 3x4 matrix, row by row, for all
 
   bool has_attitude() const { return quaternion_xyzw || rpy || matrix; }
@@ -31,7 +33,8 @@ struct PoseColumns {
 
 /// The columns that a header names, as TUM, EuRoC, the Newer College ("sec,nsec,x,..."), and
 /// `rostopic echo -p` ("field.pose.pose.position.x") write them; nothing where it names no stamp or
-/// no position. The first column of a name counts.
+/// no position. The first column of a name counts. Without x, y, z: east, north, up or down, in any
+/// order.
 std::optional<PoseColumns> named_columns(std::span<const std::string_view> header);
 
 /// Whether the header names a latitude or longitude, which are no positions in metres.

@@ -70,11 +70,17 @@ bool is_digits(std::string_view word) {
          std::ranges::all_of(word, [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
+/// By the digits in front of the point, also where those are written as 1.7e18.
 StampUnit unit_by_digits(std::string_view stamp) {
-  if (!is_digits(stamp)) return StampUnit::kSeconds;
-  if (stamp.size() >= 17) return StampUnit::kNanoseconds;
-  if (stamp.size() == 16) return StampUnit::kMicroseconds;
-  return stamp.size() == 13 ? StampUnit::kMilliseconds : StampUnit::kSeconds;
+  std::string whole(stamp.substr(0, stamp.find('.')));
+  if (!is_digits(stamp)) {
+    const auto value = parse_number(stamp, false);
+    if (value && std::isfinite(*value)) whole = fmt::format("{:.0f}", std::trunc(*value));
+  }
+  if (!is_digits(whole)) return StampUnit::kSeconds;
+  if (whole.size() >= 17) return StampUnit::kNanoseconds;
+  if (whole.size() == 16) return StampUnit::kMicroseconds;
+  return whole.size() == 13 ? StampUnit::kMilliseconds : StampUnit::kSeconds;
 }
 
 int decimals_of(StampUnit unit) {
@@ -89,6 +95,35 @@ int decimals_of(StampUnit unit) {
       return 0;
   }
 }
+
+/// Tells the unit of roll, pitch and yaw without one. Radians go beyond 2 pi only where a yaw is
+/// unwrapped: from a first one that is not, and no faster than robots turn.
+class AngleUnit {
+ public:
+  void add(double stamp, const Eigen::Vector3d& angles) {
+    constexpr double kWindow = 0.5;  // [s]
+    if (!angles.allFinite() || !std::isfinite(stamp)) return;
+    largest_ = std::max(largest_, angles.cwiseAbs().maxCoeff());
+    const bool is_wide = angles.head<2>().cwiseAbs().maxCoeff() > kTurn;
+    is_no_radian_ = is_no_radian_ || is_wide || (!since_ && largest_ > kTurn);
+    const double passed = since_ ? stamp - *since_ : kWindow;
+    if (passed < kWindow) return;
+    if (since_) fastest_ = std::max(fastest_, (angles - angles_).norm() / passed);
+    since_ = stamp;
+    angles_ = angles;
+  }
+
+  bool is_beyond_turn() const { return largest_ > kTurn; }
+  bool is_degrees() const { return is_beyond_turn() && (is_no_radian_ || fastest_ > kTurn); }
+  double largest() const { return largest_; }
+
+ private:
+  static constexpr double kTurn = 2.0 * std::numbers::pi;  ///< also a second: faster than robots
+  double largest_ = 0.0, fastest_ = 0.0;                   ///< as they are written
+  bool is_no_radian_ = false;
+  std::optional<double> since_;
+  Eigen::Vector3d angles_ = Eigen::Vector3d::Zero();
+};
 
 /// How the rows of a table are read.
 struct RowLayout {
@@ -110,6 +145,11 @@ struct RowLayout {
     return parse_number(number(cell), false).value_or(std::numeric_limits<double>::quiet_NaN());
   }
 
+  static std::string negated(const std::string& number) {
+    if (number.starts_with('-')) return number.substr(1);
+    return '-' + number.substr(number.starts_with('+') ? 1 : 0);
+  }
+
   static std::string text_of(const Eigen::Quaterniond& q) {
     return fmt::format(" {} {} {} {}", q.x(), q.y(), q.z(), q.w());
   }
@@ -117,13 +157,17 @@ struct RowLayout {
   /// " qx qy qz qw" of R = Rz(yaw) Ry(pitch) Rx(roll).
   std::string angles_text(const std::vector<std::string_view>& cells) const {
     const double unit = columns.rpy_in_degrees ? std::numbers::pi / 180.0 : 1.0;
+    const Eigen::Vector3d angles = unit * angles_of(cells);
     Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
     for (int i = 2; i >= 0; --i) {
-      const auto axis = static_cast<std::size_t>(i);
-      q = q *
-          Eigen::AngleAxisd(unit * value(cells[(*columns.rpy)[axis]]), Eigen::Vector3d::Unit(i));
+      q = q * Eigen::AngleAxisd(angles[i], Eigen::Vector3d::Unit(i));
     }
     return text_of(q);
+  }
+
+  Eigen::Vector3d angles_of(const std::vector<std::string_view>& cells) const {
+    const auto& rpy = *columns.rpy;
+    return {value(cells[rpy[0]]), value(cells[rpy[1]]), value(cells[rpy[2]])};
   }
 
   /// " x y z qx qy qz qw" of a 3x4 matrix.
@@ -142,7 +186,7 @@ struct RowLayout {
     const double off = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
     const bool rotates = off < 0.01 && R.determinant() > 0.0;
     return text + text_of(rotates ? Eigen::Quaterniond(R).normalized()
-                                  : Eigen::Quaterniond(0.0, 0.0, 0.0, 0.0));
+                                  : Eigen::Quaterniond(2.0, 0.0, 0.0, 0.0));
   }
 
   std::string row(const std::vector<std::string_view>& cells) const {
@@ -155,8 +199,10 @@ struct RowLayout {
     }
     std::string text = std::move(stamp);
     if (columns.matrix) return text + matrix_text(cells) + '\n';
-    for (const std::size_t each : columns.position) {
-      text += ' ' + stamp_in_seconds(number(cells[each]), columns.position_decimals);
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::string axis = number(cells[columns.position[i]]);
+      if (i == 2 && columns.is_down) axis = negated(axis);
+      text += ' ' + stamp_in_seconds(axis, columns.position_decimals);
     }
     if (columns.quaternion_xyzw) {
       for (const std::size_t each : *columns.quaternion_xyzw) text += ' ' + number(cells[each]);
@@ -186,14 +232,20 @@ std::string_view without_comment(std::string_view line) {
 bool is_comment(std::string_view line) {
   const std::size_t first = line.find_first_not_of(" \t\r");
   if (first == std::string_view::npos) return true;
+  // The separator that a spreadsheet is told.
+  if (line.substr(first).starts_with("sep=")) return true;
   return line[first] == '#' || line[first] == '%' || line.substr(first).starts_with("//");
 }
 
 /// Reads a table line by line.
 class TableReader {
  public:
-  TableReader(const std::string& name, int decimals, std::vector<std::string>& notes)
-      : name_(name), decimals_(decimals), notes_(notes) {}
+  /// `in_degrees`: roll, pitch and yaw without a unit.
+  TableReader(const std::string& name, int decimals, bool in_degrees,
+              std::vector<std::string>& notes)
+      : name_(name), decimals_(decimals), angles_in_degrees_(in_degrees), notes_(notes) {}
+
+  const AngleUnit& angle_unit() const { return angle_unit_; }
 
   /// The row of a line, a line end where it has none.
   Result<std::string> read(std::string_view line) {
@@ -201,7 +253,13 @@ class TableReader {
     line = without_comment(line);
     const char separator = layout_ ? layout_->separator : separator_of(line);
     const auto cells = cells_of(line, separator);
-    const bool names = cells.size() >= kPositionColumns && !is_number_with_comma(cells[0]);
+    const std::size_t stamp = named_ ? named_->stamp : 0;
+    const bool names = cells.size() >= std::max(kPositionColumns, stamp + 1) &&
+                       !is_number_with_comma(cells[stamp]);
+    if (!layout_ && names && !is_comment(line) && is_row(cells)) {
+      return failure(fmt::format("{}:{}: expected a number as stamp, found '{}'", name_, number_,
+                                 cells[stamp]));
+    }
     if (is_comment(line) || (!layout_ && names)) {
       if (!named_ && cells.size() >= kPositionColumns) take_header(cells, is_comment(line));
       return std::string("\n");
@@ -213,10 +271,20 @@ class TableReader {
     const bool odd = separator == ' ' && !named_ && !layout_->columns.matrix &&
                      cells.size() != kPositionColumns && cells.size() != kColumns;
     if (odd || cells.size() < layout_->columns.least()) return wrong_number(cells.size());
+    if (layout_->columns.rpy && !layout_->columns.rpy_has_unit) {
+      const double unit = std::pow(10.0, -layout_->decimals);
+      angle_unit_.add(unit * layout_->value(cells[layout_->columns.stamp]),
+                      layout_->angles_of(cells));
+    }
     return layout_->row(cells);
   }
 
  private:
+  /// Whether the cells are those of a row and no names.
+  static bool is_row(const std::vector<std::string_view>& cells) {
+    return std::ranges::count_if(cells, is_number_with_comma) >= 3;
+  }
+
   /// The names of the columns, each with its unit.
   void take_header(std::vector<std::string_view> cells, bool comment) {
     std::vector<std::string_view> names;
@@ -265,6 +333,12 @@ class TableReader {
     layout_->columns =
         named_ ? *named_ : ordered_columns(cells.size(), unit == StampUnit::kNanoseconds);
     PoseColumns& columns = layout_->columns;
+    if (!columns.rpy_has_unit) columns.rpy_in_degrees = angles_in_degrees_;
+    if (columns.is_down) {
+      notes_.push_back(fmt::format(
+          "{}: north, east, down: taken as x = east, y = north, z = up; attitudes are not read",
+          name_));
+    }
     if (columns.unit == StampUnit::kByDigits && columns.stamp < cells.size()) {
       columns.unit = unit_by_digits(cells[columns.stamp]);
       if (columns.unit == StampUnit::kMicroseconds || columns.unit == StampUnit::kMilliseconds) {
@@ -297,7 +371,9 @@ class TableReader {
   }
 
   const std::string& name_;
-  int decimals_;  ///< of stamps of no other unit
+  int decimals_;            ///< of stamps of no other unit
+  bool angles_in_degrees_;  ///< that have no unit
+  AngleUnit angle_unit_;    ///< that the rows tell
   std::vector<std::string>& notes_;
   std::optional<PoseColumns> named_;
   std::size_t header_size_ = 0;  ///< columns that it names
@@ -322,10 +398,21 @@ bool names_other_order(std::string_view text, std::size_t count) {
     if (!named) continue;
     const PoseColumns usual = ordered_columns(count, false);
     return named->stamp != usual.stamp || named->position != usual.position ||
-           named->position_decimals != 0 ||
+           named->position_decimals != 0 || named->is_down ||
            (named->quaternion_xyzw && named->quaternion_xyzw != usual.quaternion_xyzw);
   }
   return false;
+}
+
+/// The rows of the text, each on its line.
+Result<std::string> rows_of(std::string_view text, TableReader& reader) {
+  std::string out;
+  while (!text.empty()) {
+    auto row = reader.read(take_line(text));
+    if (!row) return row;
+    out += *row;
+  }
+  return out;
 }
 
 }  // namespace
@@ -366,14 +453,18 @@ std::string stamp_in_seconds(std::string_view stamp, int decimals) {
 Result<std::string> tum_of_pose_table(std::string_view text, const std::string& name, int decimals,
                                       std::vector<std::string>& notes) {
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  std::string out;
-  TableReader reader(name, decimals, notes);
-  while (!text.empty()) {
-    auto row = reader.read(take_line(text));
-    if (!row) return row;
-    out += *row;
-  }
-  return out;
+  TableReader reader(name, decimals, false, notes);
+  auto rows = rows_of(text, reader);
+  const AngleUnit& unit = reader.angle_unit();
+  if (!rows || !unit.is_beyond_turn()) return rows;
+  notes.push_back(fmt::format(
+      "{}: roll, pitch, yaw of no unit reach {:.4g}: taken as {} (a header of 'yaw [rad]' or "
+      "'yaw [deg]' states it)",
+      name, unit.largest(), unit.is_degrees() ? "degrees" : "unwrapped radians"));
+  if (!unit.is_degrees()) return rows;
+  std::vector<std::string> repeated;
+  TableReader in_degrees(name, decimals, true, repeated);
+  return rows_of(text, in_degrees);
 }
 
 }  // namespace aims

@@ -140,6 +140,9 @@ Result<TrajectoryFile> read_text(const fs::path& file, const TrajectoryFileOptio
   }
   if (!trajectory) return tl::unexpected(trajectory.error());
   result.trajectory = std::move(*trajectory);
+  if (options.rules == PoseRules::kStrict && result.has_attitude) {
+    result.has_attitude = !is_of_positions(result.trajectory, name, result.notes);
+  }
   normalize_rounded(result.trajectory, name, result.notes);
   if (options.rules == PoseRules::kStrict) drop_unusable(result.trajectory, name, result.notes);
   return result;

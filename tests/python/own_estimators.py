@@ -32,6 +32,21 @@ class Legs:
         return relative
 
 
+class Nested(Legs):
+    """The poses as nested lists, every second one in a list of one."""
+
+    def add_legs(self, *arguments):
+        pose = super().add_legs(*arguments).tolist()
+        return [pose] if self.count % 2 else pose
+
+
+class Unrigid(Legs):
+    """No pose is one."""
+
+    def add_legs(self, *arguments):
+        return 2.0 * super().add_legs(*arguments)
+
+
 class Keeps:
     """Keeps every scan, and raises at the end if one of them has changed since."""
 

@@ -308,6 +308,18 @@ def test_a_wrong_range_is_an_error(own, param, message):
     assert message in error
 
 
+def test_poses_are_nested_lists_too(own):
+    run(own, "estimate", "walk.bag", "--estimators",
+        "mine=python:own_estimators.Legs,nested=python:own_estimators.Nested", "-o", "nested")
+    assert (own / "nested" / "nested.tum").read_bytes() == (own / "nested" / "mine.tum").read_bytes()
+
+
+def test_what_an_estimator_without_poses_counts_is_printed(own):
+    out, error = run(own, "estimate", "walk.bag", "--estimators",
+                     "bad=python:own_estimators.Unrigid", "-o", "unrigid", code=4)
+    assert "note: bad: pose_not_rigid: " in out and "bad: no poses" in error
+
+
 def test_poses_that_are_none_are_left_out_and_counted(own):
     run(own, "estimate", "walk.bag", "--estimators",
         "mine=python:own_estimators.Legs,poor=python:own_estimators.Poor", "-o", "poor")

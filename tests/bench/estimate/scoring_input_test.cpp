@@ -247,6 +247,33 @@ TEST_F(ScoringInputs, QuaternionsWithWFirstAreNamedOnEitherSide) {
   }
 }
 
+TEST_F(ScoringInputs, PositionsInAnotherUnitAndInverseAttitudesAreNamed) {
+  Trajectory millimetres = bend(), inverse = bend();
+  for (StampedPose& each : millimetres) each.pose.translation *= 1e3;
+  for (StampedPose& each : inverse) each.pose.rotation = each.pose.rotation.conjugate();
+  const auto names = [](const ScoringRequest& request, const std::string& text) {
+    const auto scored = score_trajectories(*read_scoring_input(request));
+    EXPECT_TRUE(scored);
+    return std::ranges::any_of(scored->notes, [&](const std::string& note) {
+      return note.find(text) != std::string::npos;
+    });
+  };
+  EXPECT_FALSE(names(plain(), "likely in") || names(plain(), "quaternions"));
+  for (const bool of_truth : {true, false}) {
+    const auto with = [&](const Trajectory& other) {
+      ScoringRequest request = plain();
+      const std::string other_file = file("other.tum", tum_text(other));
+      of_truth ? request.truth = other_file : request.estimates.front() = other_file;
+      return request;
+    };
+    EXPECT_TRUE(names(with(millimetres), "likely in mm"));
+    EXPECT_TRUE(names(with(inverse), "quaternions are conjugated"));
+  }
+  ScoringRequest far = plain();
+  far.extrinsic = "1e308 0 0 0 0 0 1";
+  EXPECT_NE(message_of(far).find("expected at most 100 m"), std::string::npos);
+}
+
 TEST_F(ScoringInputs, ATurnedBodyFrameIsNamedWithTheExtrinsicThatCorrectsIt) {
   const Pose T_body_estimate = {so3_exp(Eigen::Vector3d(0.0, 0.0, 0.5 * std::numbers::pi)),
                                 Eigen::Vector3d::Zero()};

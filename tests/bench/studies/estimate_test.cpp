@@ -115,6 +115,37 @@ TEST(Estimate, NotesWhatTheRecordingLacksForAnEstimator) {
   EXPECT_FALSE(lacks("leg_kilo", "joints and contacts"));
 }
 
+TEST(Estimate, ATruthOfOneAttitudeIsOfPositions) {
+  for (const bool turns : {false, true}) {
+    const TemporaryFolder folder;
+    test::RobotRecording robot(folder.path() / "robot.bag");
+    robot.add_imu(test::kStart, 400);
+    for (int k = 0; k < 40; ++k) {
+      const Time stamp = test::kStart + k * 50 * kMillisecond;
+      const Pose pose{yaw_rotation(0.02 * k), {0.05 * k, 0.0, 0.0}};
+      const Pose measured{turns ? pose.rotation : Eigen::Quaterniond::Identity(),
+                          k == 20 ? Eigen::Vector3d(0, 0, 0) : pose.translation};
+      robot.add("/odom", odometry_type(), stamp,
+                odometry_message({0, stamp, "odom"}, "imu", {pose, {}, {}}));
+      robot.add("/ground_truth/imu", odometry_type(), stamp,
+                odometry_message({0, stamp, "world"}, "imu", {measured, {}, {}}));
+    }
+    robot.close();
+    EstimateConfig config;
+    config.run = {"leg"};
+    config.recording.topics.lidar = "none";
+    const auto result =
+        estimate(config, {folder.path() / "robot.bag"}, [](const Progress&) { return true; });
+    ASSERT_TRUE(result) << result.error().message;
+    ASSERT_TRUE(result->scores);
+    EXPECT_EQ(result->scores->scoring.truth, turns ? TruthContent::kPose : TruthContent::kPosition);
+    EXPECT_EQ(std::ranges::count(result->setup.warnings, "truth of positions alone",
+                                 &ReadingWarning::reason),
+              turns ? 0 : 1);
+    EXPECT_EQ(result->scores->truth.trajectory.size(), turns ? 40U : 39U) << "one is unset";
+  }
+}
+
 std::string content(const std::filesystem::path& file) {
   const auto text = read_file(file);
   EXPECT_TRUE(text) << text.error().message;

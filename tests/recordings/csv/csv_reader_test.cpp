@@ -92,6 +92,25 @@ TEST_F(CsvTable, ReadsEveryUnitOfTime) {
   }
 }
 
+TEST_F(CsvTable, LinesOfASpreadsheetAreRead) {
+  for (const char* table : {"sep=,\ntime,a,b,c,d\n1.5,1,2,3,4\n", "time,a,b,c,d\r1.5,1,2,3,4\r",
+                            "sep=;\r\ntime;a;b;c;d\r\n1,5;1;2;3;4\r\n"}) {
+    auto reader = open("foot_force: [a, b, c, d]\n", table);
+    ASSERT_TRUE(reader) << table << reader.error().message;
+    EXPECT_EQ(reader->summary().start, 1'500'000'000) << table;
+  }
+}
+
+TEST_F(CsvTable, NamesTheLikelyUnitAndTheColumnsThatThereAre) {
+  const std::string mapping = "foot_force: [a, b, c, d]\n";
+  EXPECT_NE(refusal(mapping, "time,a,b,c,d\n1700000000000000000,1,2,3,4\n")
+                .find("; likely time_unit: ns"),
+            std::string::npos);
+  EXPECT_NE(refusal(mapping, "time,a [N],b,c,d\n1,1,2,3,4\n")
+                .find("expected a column 'a', which the mapping names; there are 'time', 'a [N]'"),
+            std::string::npos);
+}
+
 TEST_F(CsvTable, LacksTheMessagesOfEmptyCells) {
   auto reader = open(std::string("foot_force: [a, b, c, d]\n") + kImu,
                      "time,wx,wy,wz,ax,ay,az,a,b,c,d\n"
@@ -156,8 +175,10 @@ TEST_F(CsvTable, RefusesWhatIsMalformed) {
             "t.csv:3: expected 7 cells and a line end, found 8 cells");
   EXPECT_EQ(refusal("time: t\n" + std::string(kImu), header + row),
             "t.csv: expected a column 't' (time)");
-  EXPECT_EQ(refusal("gyro: [wx, wy, w_z]\naccelerometer: [ax, ay, az]\n", header + row),
-            "t.csv: expected a column 'w_z', which the mapping names");
+  EXPECT_EQ(
+      refusal("gyro: [wx, wy, w_z]\naccelerometer: [ax, ay, az]\n", header + row),
+      "t.csv: expected a column 'w_z', which the mapping names; there are 'time', 'wx', 'wy', "
+      "'wz', 'ax', 'ay', 'az'");
   EXPECT_EQ(refusal("gyro: [wx, wy]\n", header + row),
             "map.yaml: gyro: expected 3 columns or none, found 2");
   EXPECT_EQ(refusal("joint_velocity: [a,b,c,d,e,f,g,h,i,j,k,l]\n", header + row),

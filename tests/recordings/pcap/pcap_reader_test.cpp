@@ -225,6 +225,22 @@ class Capture : public testing::Test {
     return Packet().put(magic).zeros(16).put(link).text();
   }
 
+  /// The file with these frames behind a header.
+  Result<PcapReader> read(const std::string& frames) {
+    EXPECT_TRUE(write_file_atomically(folder_.path() / "c.pcap", header() + frames));
+    return PcapReader::open(folder_.path() / "c.pcap");
+  }
+
+  /// A frame as below, of 10.0.0.`host` to this port.
+  static std::string sent_frame(const Packet& payload, std::uint8_t host, std::uint8_t port) {
+    std::string all = frame(payload);
+    constexpr std::size_t kIp = 16;
+    all[kIp + 12] = 10;
+    all[kIp + 15] = static_cast<char>(host);
+    all[kIp + 23] = static_cast<char>(port);
+    return all;
+  }
+
   /// A frame with an IPv4 packet of UDP; `missing` bytes at its end are not there.
   static std::string frame(const Packet& payload, std::size_t missing = 0) {
     const auto big = [](std::size_t value) {
@@ -284,6 +300,119 @@ TEST_F(Capture, OfOtherLidarsNamesThem) {
     const std::string message = refusal(header() + frame(packet));
     EXPECT_NE(message.find(expected), std::string::npos) << expected << '\n' << message;
   }
+}
+
+TEST_F(Capture, OfTwoLidarsIsRefusedWithTheFilter) {
+  const auto packets = test::vlp16_packets(1'700'000'123 * kSecond, 2);
+  const auto of = [&](std::uint8_t host, std::uint8_t port, int changed) {
+    std::string frames;
+    for (const auto& each : packets) {
+      Packet other{each.payload};
+      other.bytes[10] ^= static_cast<std::byte>(changed);  // a reflectivity or range
+      frames += sent_frame({each.payload}, 1, 8) + sent_frame(other, host, port);
+    }
+    const auto reader = read(frames);
+    return reader ? "" : reader.error().message;
+  };
+  EXPECT_NE(of(2, 8, 1).find("found those of 10.0.0.1 to port 8 and of 10.0.0.2 to port 8: "
+                             "`tcpdump -r IN -w OUT 'src host 10.0.0.1'`"),
+            std::string::npos)
+      << of(2, 8, 1);
+  EXPECT_NE(of(1, 9, 1).find("'udp dst port 8'"), std::string::npos) << of(1, 9, 1);
+  EXPECT_EQ(of(2, 9, 0), "") << "a relay of the same packets";
+}
+
+TEST_F(Capture, PacketsInSwappedOrderMakeNoOtherScans) {
+  for (std::size_t offset : {0U, 1U}) {
+    auto packets = test::vlp16_packets(1'700'000'123 * kSecond, 3);
+    for (std::size_t i = offset; i + 1 < packets.size(); i += 2) {
+      std::swap(packets[i], packets[i + 1]);
+    }
+    std::string frames;
+    for (const auto& each : packets) frames += frame({each.payload});
+    const auto reader = read(frames);
+    ASSERT_TRUE(reader) << reader.error().message;
+    EXPECT_LE(reader->connections()[0].messages, 3U) << offset;
+    EXPECT_GE(reader->connections()[0].messages, 2U) << offset;
+  }
+}
+
+TEST_F(Capture, OtherDatagramsOfItsSizeAreNoPackets) {
+  std::string frames;
+  for (const auto& each : test::vlp16_packets(1'700'000'123 * kSecond, 2)) {
+    frames += frame({each.payload}) + sent_frame(Packet().zeros(1206), 2, 9);
+  }
+  const auto reader = read(frames);
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_EQ(reader->connections()[0].messages, 2U);
+}
+
+TEST_F(Capture, WhatItCutIsNamed) {
+  std::string cut = frame(velodyne_packet(blocks_from(0, 20), 0), 1034);
+  cut[8] = static_cast<char>(200);  // kept of 1234 bytes
+  cut[9] = 0;
+  EXPECT_NE(
+      refusal(header() + cut + cut).find("2 packets that the capture cut, to 200 of 1234 bytes"),
+      std::string::npos)
+      << refusal(header() + cut);
+}
+
+TEST_F(Capture, OfAnOusterWithPacketsTwiceHasEachPointOnce) {
+  ASSERT_TRUE(write_file_atomically(folder_.path() / "c.json", test::ouster_metadata_text()));
+  std::string once, twice;
+  for (const auto& each : test::ouster_lidar_packets(1'700'000'123 * kSecond, 0, 2)) {
+    once += frame({each.payload});
+    twice += frame({each.payload}) + frame({each.payload});
+  }
+  const auto size_of = [&](const std::string& frames) {
+    auto reader = read(frames);
+    EXPECT_TRUE(reader);
+    std::size_t size = 0;
+    while (true) {
+      const auto message = reader->next();
+      if (!message || !*message) return size;
+      size += (*message)->data.size();
+    }
+  };
+  EXPECT_EQ(size_of(twice), size_of(once));
+}
+
+TEST(OusterScans, ColumnsThatComeAgainAreLeftOut) {
+  OusterMetadata metadata = ouster("RNG19_RFL8_SIG16_NIR16_DUAL");
+  metadata.columns_per_frame = metadata.window_columns = 8;
+  OusterScans scans(metadata);
+  const Return hit{4000, 51, 100};
+  const auto add = [&](int frame, int column) {
+    const auto packet = dual_packet(static_cast<std::uint16_t>(frame),
+                                    static_cast<std::uint16_t>(column), hit, hit);
+    return scans.add(packet.bytes).has_value();
+  };
+  for (int i = 0; i < 7; ++i) EXPECT_FALSE(add(5, i) || add(5, i));
+  EXPECT_FALSE(add(5, 2)) << "later, again";
+  EXPECT_EQ(scans.finish(true), std::nullopt);
+  EXPECT_EQ(scans.most_columns(), 7);
+  EXPECT_FALSE(scans.column_beyond());
+  EXPECT_FALSE(add(6, 9));
+  EXPECT_EQ(scans.column_beyond(), 9);
+}
+
+TEST(OusterScans, APacketAfterItsFrameEndsNone) {
+  OusterMetadata metadata = ouster("RNG19_RFL8_SIG16_NIR16_DUAL");
+  metadata.columns_per_frame = metadata.window_columns = 8;
+  OusterScans scans(metadata);
+  const Return hit{4000, 51, 100};
+  std::size_t ended = 0;
+  // Column 7 of each frame comes after column 0 of the next.
+  for (const auto& [frame, column] : std::vector<std::pair<int, int>>{
+           {1, 0}, {1, 3}, {2, 0}, {1, 7}, {2, 3}, {3, 0}, {2, 7}, {3, 3}, {4, 0}, {3, 7}}) {
+    const auto scan = scans.add(
+        dual_packet(static_cast<std::uint16_t>(frame), static_cast<std::uint16_t>(column), hit, hit)
+            .bytes);
+    if (!scan) continue;
+    ++ended;
+    EXPECT_EQ(scan->points.size(), 4U) << "two columns of two beams";
+  }
+  EXPECT_EQ(ended, 2U);
 }
 
 TEST_F(Capture, OfAHesaiHasItsScans) {

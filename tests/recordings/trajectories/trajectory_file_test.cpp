@@ -221,8 +221,8 @@ TEST_F(TrajectoryFiles, UnusablePosesOfATruthAreLeftOutWithTheirCauses) {
 TEST_F(TrajectoryFiles, TablesHaveWWhereTheirHeaderOrTheirStampsTell) {
   const std::vector<std::string> texts = {
       "#timestamp, p_x, p_y, p_z, q_RS_w [], q_x, q_y, q_z, v_x\n1500000000,1,2,3,0.8,0,0,0.6,9\n",
-      "1403636580838555648,1,2,3,0.8,0,0,0.6\n", "t;x;y;z;qx;qy;qz;qw\n1.5;1;2;3;0;0;0.6;0.8\n",
-      "1.5, 1, 2, 3, 0, 0, 0.6, 0.8\n"};
+      "1403636580838555648,1,2,3,0.8,0,0,0.6\n",
+      "sep=;\nt;x;y;z;qx;qy;qz;qw\n1.5;1;2;3;0;0;0.6;0.8\n", "1.5, 1, 2, 3, 0, 0, 0.6, 0.8\n"};
   for (const std::string& text : texts) {
     const auto read = read_trajectory(file("table.csv", text), {});
     ASSERT_TRUE(read) << read.error().message;
@@ -378,6 +378,86 @@ TEST_F(TrajectoryFiles, APoseOfALostBodyIsLeftOutOfATruth) {
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->trajectory.size(), 4U) << "those at the start are a start";
   EXPECT_NE(read->notes.at(0).find("2 exactly at the origin"), std::string::npos);
+}
+
+TEST_F(TrajectoryFiles, APoseBeforeTheBodyIsFoundIsLeftOutToo) {
+  const std::string lost = " 0 0 0 0 0 0 1\n";
+  std::string mocap, started;
+  for (int i = 0; i < 50; ++i) {
+    const std::string stamp = std::to_string(1.0 + 0.02 * i);
+    const std::string x = std::to_string(3.0 + 0.01 * i), began = std::to_string(0.01 * i);
+    mocap += stamp + (i % 10 < 2 ? lost : " " + x + " 3 3 0 0 0.6 0.8\n");
+    started += stamp + (i < 2 ? lost : " " + began + " 0 0 0 0 0 1\n");
+  }
+  const auto read = read_trajectory(file("mocap.tum", mocap), {});
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read->trajectory.size(), 40U);
+  EXPECT_NEAR(read->trajectory.front().pose.translation.x(), 3.02, 1e-9);
+  EXPECT_EQ(read_trajectory(file("odom.tum", started), {})->trajectory.size(), 50U);
+}
+
+TEST_F(TrajectoryFiles, DirectionsOfTheCompassAreColumns) {
+  for (const char* text :
+       {"t,north,east,down\n1.5,2,1,3\n", "# t n e d\n1.5 2 1 3\n",
+        "time,north_m,east_m,down_m,roll,pitch,yaw\n1.5,2,1,3,0.1,0.2,0.3\n",
+        "t [s];down [mm];east [mm];north [mm]\n1,5;3000;1000;2000\n",
+        "t,northing,easting,altitude\n1.5,2,1,-3\n", "t,pos_e,pos_n,pos_u\n1.5,1,2,-3\n"}) {
+    const auto read = read_trajectory(file("p.csv", text), {});
+    ASSERT_TRUE(read) << text << read.error().message;
+    ASSERT_EQ(read->trajectory.size(), 1U) << text;
+    EXPECT_FALSE(read->has_attitude);
+    EXPECT_NEAR((read->trajectory[0].pose.translation - Eigen::Vector3d(1, 2, -3)).norm(), 0.0,
+                1e-12)
+        << text;
+  }
+}
+
+TEST_F(TrajectoryFiles, AnglesWithoutAUnitThatNoRadiansReachAreDegrees) {
+  constexpr double kDegree = 0.017453292519943295;
+  const auto last_yaw = [&](double first, double rate, double roll, const std::string& unit) {
+    std::string text = "t,x,y,z,roll,pitch,yaw" + unit + "\n";
+    for (int i = 0; i <= 100; ++i) {
+      text += std::to_string(0.1 * i) + ",0,0,0," + std::to_string(roll) + ",0," +
+              std::to_string(first + 0.1 * rate * i) + "\n";
+    }
+    const auto read = read_trajectory(file("a.csv", text), {});
+    EXPECT_TRUE(read);
+    const Eigen::Matrix3d R = read->trajectory.at(100).pose.R();
+    return std::atan2(R(1, 0), R(0, 0));
+  };
+  EXPECT_NEAR(last_yaw(150.0, 4.0, 0.0, ""), -170.0 * kDegree, 1e-6) << "begins beyond a turn";
+  EXPECT_NEAR(last_yaw(0.0, 17.0, 0.0, ""), 170.0 * kDegree, 1e-6) << "turns too fast";
+  EXPECT_NEAR(last_yaw(0.0, 0.1, 8.0, ""), 1.0 * kDegree, 0.01) << "rolls beyond a turn";
+  EXPECT_NEAR(last_yaw(0.5, 0.7, 0.0, ""), 7.5 - 6.283185307179586, 1e-6) << "unwrapped";
+  EXPECT_NEAR(last_yaw(0.0, 0.3, 0.0, ""), 3.0, 1e-6);
+  EXPECT_NEAR(last_yaw(10.0, 0.0, 0.0, " [rad]"), 10.0 - 4 * 3.141592653589793, 1e-6);
+}
+
+TEST_F(TrajectoryFiles, QuaternionsOfZeroAreNone) {
+  const auto read = read_trajectory(file("p.tum", "1 1 2 3 0 0 0 0\n2 4 5 6 0 0 0 0\n"), {});
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_FALSE(read->has_attitude);
+  ASSERT_EQ(read->trajectory.size(), 2U);
+  EXPECT_EQ(read->trajectory[1].pose.translation, Eigen::Vector3d(4, 5, 6));
+  EXPECT_NE(read->notes.at(0).find("positions alone"), std::string::npos);
+  const auto some = read_trajectory(file("p.tum", "1 1 2 3 0 0 0 0\n2 4 5 6 0 0 0 1\n"), {});
+  EXPECT_EQ(some->trajectory.size(), 1U);
+}
+
+TEST_F(TrajectoryFiles, StampsOfPandasAreReadOrNamed) {
+  for (const char* stamp : {"1700000000000000000.0", "1.7e18", "1700000000000.0"}) {
+    const auto read =
+        read_trajectory(file("p.csv", std::string("t,x,y,z\n") + stamp + ",1,2,3\n"), {});
+    ASSERT_TRUE(read) << stamp << read.error().message;
+    EXPECT_EQ(read->trajectory.at(0).stamp, 1'700'000'000 * kSecond) << stamp;
+  }
+  for (const char* header : {"t,x,y,z\n", ""}) {
+    const std::string text = std::string(header) + "2023-11-14 22:13:20.000000,1,2,3\n";
+    EXPECT_NE(message_of(file("p.csv", text))
+                  .find("expected a number as stamp, found '2023-11-14 22:13:20.000000'"),
+              std::string::npos)
+        << message_of(file("p.csv", text));
+  }
 }
 
 TEST_F(TrajectoryFiles, NumbersWithoutNamesAreNoOtherColumns) {
