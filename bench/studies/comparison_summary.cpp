@@ -33,6 +33,14 @@ std::optional<std::size_t> won(const ScoreChange& change) {
   return change.success ? std::optional(change.success->only_second) : std::nullopt;
 }
 
+/// Of a change that was not detected.
+std::string detectable_text(const ScoreChange& change) {
+  const bool detected =
+      change.verdict == ChangeVerdict::kBetter || change.verdict == ChangeVerdict::kWorse;
+  const auto smallest = detectable(change);
+  return smallest && !detected ? fmt::format("{:.4f}", *smallest) : "-";
+}
+
 std::string change_text(const ScoreChange& change) {
   std::string text = fmt::format("{:+.4f}", change.test.change);
   if (change.test.interval.low) text += " " + interval_text(change.test.interval, "{:+.4f}");
@@ -58,7 +66,8 @@ const TableColumns<ScoreChange>& change_columns() {
       {"p", "p", [](const Change& c) { return c.test.p; }, "{:.3f}"},
       {"lost", "", lost},
       {"won", "", won},
-      {"detectable", "detectable", detectable, "{:.4f}"},
+      {"detectable", "", detectable},
+      {"", "detectable", detectable_text},
       {"floor", "", &Change::floor},
       {"verdict", "verdict", [](const Change& c) { return name_of(c.verdict); }},
       {"false_alarm", "", &Change::false_alarm}};
