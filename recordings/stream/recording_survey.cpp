@@ -218,22 +218,35 @@ void RecordingSurvey::warn_of_gyro(const RecordingPlan& plan) {
   }
 }
 
-/// Warns of a robot that does not stand for the first two seconds.
+/// Warns of a robot that stands for no second of the first two: the estimate begins with the
+/// longest part of them that is undisturbed.
 void RecordingSurvey::warn_of_motion(const RecordingPlan& plan) {
   if (first_samples_.empty()) return;
   MotionWindow window;
+  int windows = 0;
+  int moving = 0;
+  Time last = first_samples_.front().stamp;
+  const auto judge = [&] {
+    if (window.length_to(last) < kSecond * 9 / 10) return;
+    ++windows;
+    if (window.moves()) ++moving;
+  };
   for (const ImuSample& each : first_samples_) {
     const Duration since = each.stamp - first_samples_.front().stamp;
     if (since < 0 || since >= 2 * kSecond) break;
-    if (window.length_to(each.stamp) >= kSecond) window = {};
+    if (window.length_to(each.stamp) >= kSecond) {
+      judge();
+      window = {};
+    }
     window.add(each.stamp, plan.turn_scale * each.angular_velocity,
                plan.force_scale * each.specific_force);
-    if (window.length_to(each.stamp) < kSecond * 9 / 10 || !window.moves()) continue;
-    notes_.warn("robot moves at the start",
-                "the robot moves in the first two seconds, in which it is taken to stand: tilt, "
-                "velocity and gyro bias are then wrong; begin the recording before it walks");
-    return;
+    last = each.stamp;
   }
+  judge();
+  if (windows == 0 || moving < windows) return;
+  notes_.warn("robot moves at the start",
+              "the robot moves in the first two seconds, in which it is taken to stand: tilt, "
+              "velocity and gyro bias are then wrong; begin the recording before it walks");
 }
 
 void RecordingSurvey::decide_legs(RecordingPlan& plan) {

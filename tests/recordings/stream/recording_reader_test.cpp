@@ -749,8 +749,11 @@ Recording read_walk(const std::filesystem::path& bag, double standing, double tu
 }
 
 TEST_F(RecordingReaderTest, ARobotThatDoesNotStandAtTheStartIsAWarning) {
-  EXPECT_TRUE(read_walk(bag(), 2.5).setup.warnings.empty());
-  for (const double standing : {0.0, 1.0}) {
+  // A second of standing is enough for the start; the recorded Go1 gets up during the other one.
+  for (const double standing : {2.5, 1.2}) {
+    EXPECT_TRUE(read_walk(bag(), standing).setup.warnings.empty());
+  }
+  for (const double standing : {0.0, 0.3}) {
     EXPECT_TRUE(read_walk(bag(), standing).noted("the robot moves in the first two seconds"));
   }
 }
