@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bench/estimate/scoring_input.hpp"
+#include "core/files/tum.hpp"
 #include "recordings/source/recording_file.hpp"
 
 namespace aims {
@@ -198,8 +199,9 @@ Result<EstimateResult> estimate_sequence(const DatasetProfile& profile,
   if (!result->failures.empty()) return failure(result->failures.front().message);
   if (result->estimators.empty()) return failure("no poses");
   const std::string label = result->estimators.front().name;
-  auto scored = score_sequence(profile, sequence, label,
-                               result->estimators.front().result.trajectory, *result);
+  auto trajectory = read_tum(folder / (label + ".tum"), PoseRules::kAsGiven);
+  if (!trajectory) return tl::unexpected(trajectory.error());
+  auto scored = score_sequence(profile, sequence, label, std::move(*trajectory), *result);
   if (!scored) return failure("not scored: " + scored.error().message);
   return std::move(*result);
 }

@@ -16,6 +16,7 @@
 #include "bench/estimate/scoring_input.hpp"
 #include "bench/estimate/stream.hpp"
 #include "bench/scoring/score_record.hpp"
+#include "core/files/tum.hpp"
 #include "core/files/yaml_config.hpp"
 #include "core/stopwatch.hpp"
 #include "estimator/estimator_spec.hpp"
@@ -35,26 +36,40 @@ void withdraw_successes(EstimateResult& result) {
   }
 }
 
+/// `in_memory` without a folder, else the file in it, with the same poses; none where there is no
+/// file.
+Result<Trajectory> trajectory_of(const EstimateResult& result, const Trajectory& in_memory,
+                                 const std::string& file) {
+  if (result.folder.empty()) return in_memory;
+  if (!std::filesystem::exists(result.folder / file)) return Trajectory();
+  return read_tum(result.folder / file, PoseRules::kAsGiven);
+}
+
 /// The kept scans, their motion undone with the truth, else with the first estimate that has poses.
-std::vector<ShownScan> scans_to_show(const EstimateResult& result, const ScanKeeper& kept) {
-  const Trajectory* poses = &result.truth;
+Result<std::vector<ShownScan>> scans_to_show(const EstimateResult& result, const ScanKeeper& kept) {
+  auto poses = trajectory_of(result, result.truth, kTruthFile);
   for (const EstimatorOutcome& each : result.estimators) {
-    if (poses->empty()) poses = &each.result.trajectory;
+    if (!poses || !poses->empty()) break;
+    poses = trajectory_of(result, each.result.trajectory, each.name + ".tum");
   }
+  if (!poses) return tl::unexpected(poses.error());
   return kept.shown(*poses, result.setup.rig.T_body_lidar);
 }
 
 /// Scores the trajectories when the recording holds the truth; what keeps it from that is noted.
-void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
-  if (result.truth.empty()) return;
-  Trajectory truth = result.truth;
-  drop_unusable(truth, "the truth", result.setup.notes);
+Result<void> score_against_truth(const EstimateConfig& config, EstimateResult& result) {
+  auto truth = trajectory_of(result, result.truth, kTruthFile);
+  if (!truth) return tl::unexpected(truth.error());
+  if (truth->empty()) return {};
+  drop_unusable(*truth, "the truth", result.setup.notes);
   ScoringInput input;
   input.scoring = config.scoring;
   input.truth = {result.bag.stem().string(), result.bag.string(), "truth of the recording",
-                 std::move(truth)};
+                 std::move(*truth)};
   for (const EstimatorOutcome& each : result.estimators) {
-    input.estimates.push_back({each.name, each.name, "estimated here", each.result.trajectory});
+    auto estimated = trajectory_of(result, each.result.trajectory, each.name + ".tum");
+    if (!estimated) return tl::unexpected(estimated.error());
+    input.estimates.push_back({each.name, each.name, "estimated here", std::move(*estimated)});
   }
   for (const EstimatorOutcome& each : result.estimators) {
     if (!each.result.optimized) continue;
@@ -80,6 +95,7 @@ void score_against_truth(const EstimateConfig& config, EstimateResult& result) {
   } else {
     result.setup.notes.push_back("not scored: " + scores.error().message);
   }
+  return {};
 }
 
 /// Lists those that broke; without any pose there is nothing of them to score.
@@ -196,7 +212,7 @@ Result<StreamEnd> stream_into_log(const EstimateConfig& config, RecordingReader&
   Result<void> taken;
   const auto take = [&] {
     if (taken) taken = log->take(estimators);
-    if (taken) taken = log->take(reader.take_truth());
+    if (taken && !in_memory) taken = log->take(reader.take_truth());
     return taken.has_value();
   };
   const auto next_batch = [&](std::vector<Delivery>& batch) {
@@ -213,11 +229,10 @@ Result<StreamEnd> stream_into_log(const EstimateConfig& config, RecordingReader&
       stream(next_batch, estimators, options.jobs, [&] { return take() && observed(); });
   if (take()) taken = log->commit(estimators);
   if (!taken) return tl::unexpected(taken.error());
-  result.truth = log->truth();
+  result.truth = reader.take_truth();
   for (std::size_t i = 0; i < estimators.size(); ++i) {
     const TimedEstimator& each = estimators[i];
     result.estimators.push_back(in_memory ? outcome_of(each) : outcome_without_rows(each));
-    if (!in_memory) result.estimators.back().result.trajectory = log->poses(i);
     result.estimators.back().totals = log->totals(i);
   }
   return end;
@@ -306,8 +321,12 @@ Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOpti
   estimators->clear();
   warn_in_health(config, result);
   set_failed_apart(result);
-  result.scans = scans_to_show(result, scans);
-  score_against_truth(config, result);
+  auto shown = scans_to_show(result, scans);
+  if (!shown) return tl::unexpected(shown.error());
+  result.scans = std::move(*shown);
+  if (auto scored = score_against_truth(config, result); !scored) {
+    return tl::unexpected(scored.error());
+  }
   result.wall_s = stopwatch.seconds();
   return result;
 }

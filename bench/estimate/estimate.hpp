@@ -41,7 +41,7 @@ struct EstimateOptions {
   bool recover = false;  ///< read the intact part of a broken bag
   int jobs = 1;          ///< threads; the trajectories do not depend on it
   /// Where the truth and what the estimators report by scan are written while the recording is
-  /// read; the result then holds the poses alone. Empty: it holds all.
+  /// read; memory then does not grow with them. Empty: the result holds them.
   std::filesystem::path folder = {};
   std::vector<std::filesystem::path> with = {};  ///< further files of the same recording
   std::filesystem::path calibration = {};        ///< of the robot; only to see whether it fits
@@ -68,8 +68,8 @@ struct EstimateResult {
   std::vector<EstimatorOutcome> estimators;  ///< their scores are in `scores`
   std::vector<std::string> without_rings;  ///< estimators that need rings, of which there are none
   std::vector<EstimatorFailure> failures;  ///< those with poses are in `estimators` too
-  std::filesystem::path folder;            ///< of the options: it has what they report by scan
-  Trajectory truth;                        ///< of the body; empty: none
+  std::filesystem::path folder;            ///< of the options: it has trajectories and truth
+  Trajectory truth;                        ///< of the body; empty: none, or in `folder`
   std::vector<ShownScan> scans;            ///< to look at, by the truth or the first estimate
   /// Of the online trajectories, then of the re-optimized ones; none without a truth.
   std::optional<TrajectoryScores> scores;

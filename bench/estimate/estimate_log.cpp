@@ -31,7 +31,6 @@ Result<EstimateLog> EstimateLog::create(const std::filesystem::path& folder,
   log.warnings_ = std::move(warnings);
   log.warnings_.resize(estimators.size());
   log.totals_.resize(estimators.size());
-  log.poses_.resize(estimators.size());
   if (folder.empty()) return log;
   for (const TimedEstimator& each : estimators) {
     auto writer = RowWriter::create(folder, each.name());
@@ -52,21 +51,19 @@ Result<void> EstimateLog::take(std::vector<TimedEstimator>& estimators) {
     const std::vector<HealthRow> health = warned(rows.health, warnings_[i]);
     rows.health = health;
     if (auto written = writers_[i].add(rows); !written) return written;
-    poses_[i].insert(poses_[i].end(), rows.poses.begin(), rows.poses.end());
     estimators[i].forget();
   }
   return {};
 }
 
 Result<void> EstimateLog::take(const Trajectory& truth) {
-  truth_.insert(truth_.end(), truth.begin(), truth.end());
-  if (truth.empty() || folder_.empty()) return {};
-  if (!truth_file_) {
+  if (truth.empty()) return {};
+  if (!truth_) {
     auto file = AtomicFile::create(folder_ / kTruthFile);
     if (!file) return tl::unexpected(file.error());
-    truth_file_.emplace(std::move(*file));
+    truth_.emplace(std::move(*file));
   }
-  return truth_file_->write(tum_text(truth));
+  return truth_->write(tum_text(truth));
 }
 
 Result<void> EstimateLog::commit(const std::vector<TimedEstimator>& estimators) {
@@ -74,7 +71,7 @@ Result<void> EstimateLog::commit(const std::vector<TimedEstimator>& estimators) 
     if (estimators[i].estimator().result().failure && totals_[i].poses == 0) continue;
     if (auto done = writers_[i].commit(); !done) return done;
   }
-  return truth_file_ ? truth_file_->commit() : Result<void>();
+  return truth_ ? truth_->commit() : Result<void>();
 }
 
 }  // namespace aims

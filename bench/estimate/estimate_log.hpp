@@ -36,9 +36,6 @@ class EstimateLog {
   Result<void> commit(const std::vector<TimedEstimator>& estimators);
 
   const EstimatorTotals& totals(std::size_t estimator) const { return totals_[estimator]; }
-  /// The poses of an estimator that has let go of them, as their rows were written.
-  const Trajectory& poses(std::size_t estimator) const { return poses_[estimator]; }
-  const Trajectory& truth() const { return truth_; }
 
  private:
   explicit EstimateLog(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -47,9 +44,7 @@ class EstimateLog {
   std::vector<std::vector<std::string>> warnings_;  ///< by estimator
   std::vector<EstimatorTotals> totals_;
   std::vector<RowWriter> writers_;  ///< one per estimator; none without a folder
-  std::vector<Trajectory> poses_;   ///< likewise
-  Trajectory truth_;
-  std::optional<AtomicFile> truth_file_;
+  std::optional<AtomicFile> truth_;
 };
 
 }  // namespace aims

@@ -164,9 +164,7 @@ Result<void> write_estimate(const EstimateConfig& config, const EstimateResult& 
   if (written && !result.scans.empty()) {
     written = write_csv(folder / "scans.csv", shown_scans_table(result.scans));
   }
-  if (written && result.folder.empty() && !result.truth.empty()) {
-    written = write_tum(folder / kTruthFile, result.truth);
-  }
+  if (written && !result.truth.empty()) written = write_tum(folder / kTruthFile, result.truth);
   if (written && result.scores) written = write_scores(result, folder);
   return written;
 }

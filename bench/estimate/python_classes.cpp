@@ -10,14 +10,11 @@ Result<RunChoice> choose_run(const std::filesystem::path& file,
                              std::span<const std::string> overrides,
                              const std::filesystem::path& folder,
                              const std::vector<std::string>& standard, EstimatorConfigs& configs) {
-  const auto read = [&](const std::filesystem::path& from, std::span<const std::string> settings,
-                        const std::vector<std::string>& otherwise) {
-    auto texts = read_texts(from, settings, "run", folder);
-    return texts && *texts ? std::move(**texts) : otherwise;
+  const auto read = [&](std::span<const std::string> settings) {
+    auto texts = read_texts(file, settings, "run", folder);
+    return texts && *texts ? std::move(**texts) : standard;
   };
-  RunChoice choice;
-  choice.of_file = read(file, {}, standard);
-  choice.all = read({}, overrides, choice.of_file);
+  RunChoice choice{read({}), read(overrides)};
   if (auto added = add_python_estimators(choice.all, configs); !added) {
     return failure("run: " + added.error().message);
   }

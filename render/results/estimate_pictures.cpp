@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bench/scoring/tables.hpp"
+#include "core/files/tum.hpp"
 #include "render/results/estimator_pictures.hpp"
 #include "render/results/trajectory_pictures.hpp"
 
@@ -15,11 +16,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The outcome, and of its scans the series that are drawn, where they are in the folder of the
-/// result.
+/// The outcome with its trajectory, and of its scans the series that are drawn, where they are in
+/// the folder of the result.
 Result<EstimatorOutcome> drawn_part(const EstimateResult& result, const EstimatorOutcome& outcome) {
   if (result.folder.empty()) return outcome;
-  EstimatorOutcome part = outcome;
+  EstimatorOutcome part;
+  part.name = outcome.name;
+  part.map = outcome.map;
+  auto trajectory = read_tum(result.folder / (part.name + ".tum"), PoseRules::kAsGiven);
+  if (!trajectory) return tl::unexpected(trajectory.error());
+  part.result.trajectory = std::move(*trajectory);
   auto scans = read_diagnostics(result.folder / (part.name + ".diagnostics.csv"), drawn_series());
   if (!scans) return tl::unexpected(scans.error());
   part.result.diagnostics = std::move(*scans);
