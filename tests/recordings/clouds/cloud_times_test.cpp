@@ -285,13 +285,13 @@ TEST_F(CloudTimes, CloudsWithoutStampsAreRecordedAtTheEndOfTheirScan) {
   const auto scans = test::scans_of(read.deliveries);
   ASSERT_EQ(scans.size(), 10U);
   EXPECT_EQ(scans[3]->stamp, kStart + 300 * kMillisecond);
-  EXPECT_EQ(scans[3]->end, kStart + 400 * kMillisecond);
+  EXPECT_NEAR(static_cast<double>(scans[3]->end - kStart), 400e6, 10.0) << "times are floats";
   EXPECT_NEAR(scans[3]->points[1].time_offset_ns, 50e6, 10.0);
 }
 
 TEST_F(CloudTimes, TimesThatAreTooLongDecideNothingElse) {
-  const Recording read = read_timed(bag(), 0.994F, 105 * kMillisecond, 0.02F);
-  EXPECT_TRUE(read.noted("spans 0.974 s, but a cloud comes every 0.1 s"));
+  const Recording read = read_timed(bag(), 0.7F, 105 * kMillisecond, 0.02F);
+  EXPECT_TRUE(read.noted("spans 0.68 s, but a cloud comes every 0.1 s"));
   EXPECT_FALSE(read.noted("the stamp is taken as the end"));
   EXPECT_EQ(test::scans_of(read.deliveries)[2]->stamp, kStart + 200 * kMillisecond);
 }
