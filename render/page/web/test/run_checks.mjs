@@ -264,7 +264,7 @@ async function assertCursorMoves(page, payload) {
     Number(document.querySelector("input[name=estimator]:checked").value),
   );
   await assertCursorAgrees(page, payload, chosen);
-  const strip = page.locator("[data-plot]").first();
+  const strip = page.locator(".timeline [data-plot]").first();
   // Not to the upper edge: there the controls lie over it.
   await strip.evaluate((each) => each.scrollIntoView({ block: "center" }));
   const box = await strip.boundingBox();
@@ -296,10 +296,10 @@ async function assertCursorMoves(page, payload) {
 async function assertZoomLinks(page) {
   const shot = () =>
     page.evaluate(() =>
-      [...document.querySelectorAll(".panel canvas")].map((canvas) => canvas.toDataURL()),
+      [...document.querySelectorAll(".timeline .panel canvas")].map((canvas) => canvas.toDataURL()),
     );
   const full = await shot();
-  const strip = page.locator("[data-plot]").first();
+  const strip = page.locator(".timeline [data-plot]").first();
   await strip.evaluate((each) => each.scrollIntoView({ block: "center" }));
   const box = await strip.boundingBox();
   await page.keyboard.down("Shift");
@@ -364,6 +364,13 @@ async function assertOverview(page, payload) {
   assert.deepEqual(new Set(await lines(".overview-errors")), new Set(names));
   assert.deepEqual(new Set(await lines(".overview-plan")), new Set(names));
   assert.ok((await stripInk(page, "error_distance")) > 0.01, "the error over distance drew");
+  const errors = await page.locator('[data-plot="error_distance"]').boundingBox();
+  const before = await cursorOf(page);
+  for (const part of [0.1, 0.95]) {
+    await page.mouse.click(errors.x + part * errors.width, errors.y + 20);
+    await settle(page);
+    assert.equal((await cursorOf(page)) < before, part < 0.5, "a press on the error moves the run's cursor there");
+  }
   assert.equal(await page.locator('[data-control="level"]').inputValue(), "n100", "below 100 returns is degenerate");
   await page.locator(`[data-shown="${names[0]}"]`).uncheck();
   await page.waitForFunction(() => location.hash.includes("hide="));
