@@ -122,12 +122,6 @@ void warn_of_clouds(EstimateResult& result) {
                      "measured at one instant",
                      same, result.clouds));
   }
-  if (const int other = count_of(result, "lidar_of_another_frame"); other > 0) {
-    warn("frame of the clouds changes",
-         fmt::format("{} of {} clouds have another frame_id than the first one, whose extrinsic "
-                     "serves for all",
-                     other, result.clouds));
-  }
   if (const int empty = count_of(result, "cloud_empty"); empty > kMany * result.clouds) {
     warn("clouds without points",
          fmt::format("{} of {} clouds have no usable point", empty, result.clouds));
