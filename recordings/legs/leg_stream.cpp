@@ -89,17 +89,24 @@ void LegStream::fill_twist(LegOdometrySample& sample, EventCounts& counts) {
 
 /// A driver that leaves the pose empty: it is that of the twist.
 void LegStream::fill_pose(LegOdometrySample& sample, EventCounts& counts) {
-  constexpr double kMoved = 0.1;  // by the twist, while the pose is the same [m]
+  constexpr double kMoved = 0.1;    // by the twist, while the pose is the same [m]
+  constexpr double kCatchUp = 1.0;  // [s]
   const Eigen::Vector3d position = sample.T_odom_base.translation;
   if (!first_position_) first_position_ = position;
   pose_moves_ = pose_moves_ || (!pose_by_twist_ && position != *first_position_);
   if (pose_moves_) return;
   LegOdometrySample moved = sample;
   integrate(moved);
-  pose_by_twist_ = pose_by_twist_ || moved.T_odom_base.translation.norm() > kMoved;
+  if (!pose_by_twist_ && moved.T_odom_base.translation.norm() > kMoved) {
+    pose_by_twist_ = sample.stamp;
+    unmoved_ = moved.T_odom_base.translation;
+  }
   if (!pose_by_twist_) return;
   ++counts["legs_pose_by_twist"];
   sample.T_odom_base = moved.T_odom_base;
+  // What it has not moved until then it makes up for slowly.
+  const double part = to_seconds(sample.stamp - *pose_by_twist_) / kCatchUp;
+  sample.T_odom_base.translation -= std::clamp(1.0 - part, 0.0, 1.0) * unmoved_;
 }
 
 LegOdometrySample LegStream::add_odometry(LegOdometrySample sample, EventCounts& counts) {

@@ -96,9 +96,11 @@ class LegStream {
   std::deque<WaitingJoints> waiting_;              ///< for contacts of the same instant
   std::optional<std::pair<Time, Pose>> odometry_;  ///< the last one
   std::optional<Eigen::Vector3d> first_position_;  ///< of the odometry
-  bool pose_moves_ = false, pose_by_twist_ = false;
-  bool rates_seen_ = false;   ///< of joints, other than 0
-  bool speeds_seen_ = false;  ///< of feet, likewise
+  bool pose_moves_ = false;
+  std::optional<Time> pose_by_twist_;                  ///< since when
+  Eigen::Vector3d unmoved_ = Eigen::Vector3d::Zero();  ///< by the twist until then [m]
+  bool rates_seen_ = false;                            ///< of joints, other than 0
+  bool speeds_seen_ = false;                           ///< of feet, likewise
   std::optional<Time> integrated_;
   Pose T_odom_base_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< from the last feet in contact [m/s]

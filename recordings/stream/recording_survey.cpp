@@ -18,6 +18,7 @@ namespace aims {
 namespace {
 
 constexpr std::size_t kMaxSamples = 2000;
+constexpr std::size_t kMaxCloudStamps = 100;
 constexpr double kMaxTurnRate = 35.0;  ///< saturation of a gyro of 2000 deg/s [rad/s]
 /// Median turn rate of no walking robot [rad/s].
 constexpr double kFastTurning = 4.0;
@@ -67,7 +68,7 @@ void RecordingSurvey::add(const BagMessage& message, const Channel& channel) {
     seen_[i].type = channel.connection->type;
     seen_[i].state = channel.state;
   }
-  if (channel.is(Role::kLidar)) add_cloud(*view, message.record_time);
+  if (channel.is(Role::kLidar) && !clouds_.enough()) add_cloud(*view, message.record_time);
   if (channel.is(Role::kImu)) add_imu(*view);
   const StateLayout* state = channel.state;
   if (channel.is(Role::kLegs) && state != nullptr) legs_.add_feet(*view, *state);
@@ -118,7 +119,9 @@ void RecordingSurvey::add_imu(const MessageView& view) {
 }
 
 bool RecordingSurvey::enough(const std::string& topic) const {
-  if (topic == topics_.lidar) return clouds_.enough();
+  if (topic == topics_.lidar) {
+    return clouds_.enough() && seen(Role::kLidar).stamps.size() >= kMaxCloudStamps;
+  }
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     if (topic_of(topics_, static_cast<Role>(i)) != topic) continue;
     if (seen_[i].stamps.size() < kMaxSamples) return false;
