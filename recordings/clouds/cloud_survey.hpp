@@ -7,6 +7,7 @@
 
 #include "recordings/clouds/point_cloud.hpp"
 #include "recordings/clouds/ring_survey.hpp"
+#include "recordings/clouds/stamp_steps.hpp"
 #include "recordings/reading_notes.hpp"
 
 namespace aims {
@@ -37,8 +38,7 @@ class CloudSurvey {
   static void extend(std::optional<TimeRange>& range, double time);
   void add_azimuth(const Eigen::Vector3d& position);
   void read_points(const PointTable& table, Cloud& cloud);
-  /// Whether stamps are zero, or of a clock that stands still or counts whole seconds.
-  bool unstamped() const { return clouds_.size() >= 3 && stamp_steps_ * 5 < clouds_.size(); }
+  bool unstamped() const { return hardly_advance(stamp_steps_, clouds_.size()); }
   Time time_of(const Cloud& cloud) const { return unstamped() ? cloud.arrival : cloud.stamp; }
   bool advances_with_stamps(std::size_t field, double unit_ns, double wrap_ns) const;
   bool is_normalized(std::size_t field, double span, Duration about) const;

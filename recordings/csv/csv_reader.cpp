@@ -108,9 +108,9 @@ Result<std::vector<Time>> times_of(const CsvColumns& csv, const CsvMapping& mapp
 }
 
 Result<Table> read_table(const CsvMapping& mapping, const fs::path& file, bool recover) {
-  const auto text = read_text_file(file, kMaxTableBytes);
+  auto text = read_text_file(file, kMaxTableBytes);
   if (!text) return tl::unexpected(text.error());
-  const auto csv = CsvColumns::parse(plain_text(*text), file.string(), {},
+  const auto csv = CsvColumns::parse(plain_text(std::move(*text)), file.string(), {},
                                      recover ? CsvOrigin::kDamaged : CsvOrigin::kForeign);
   if (!csv) return tl::unexpected(csv.error());
   Table table;

@@ -29,6 +29,13 @@ constexpr Duration kMaxLate = 5 * kSecond;
 constexpr Duration kMaxUnset = kSecond;
 constexpr std::size_t kMaxHeldBytes = std::size_t{256} << 20;
 
+/// The first role that the messages of a channel serve.
+std::optional<std::size_t> first_role(const Channel& channel) {
+  const auto* const serves = std::ranges::find(channel.serves, true);
+  if (serves == channel.serves.end()) return std::nullopt;
+  return static_cast<std::size_t>(serves - channel.serves.begin());
+}
+
 }  // namespace
 
 struct RecordingReader::Impl {
@@ -54,6 +61,8 @@ struct RecordingReader::Impl {
   Result<void> fetch();
   bool hold(const BagMessage& message, const Channel& channel, const MessageView& view);
   bool is_unset(const BagMessage& message, const Channel& channel, const MessageView& view) const;
+  std::optional<Duration> lateness(const BagMessage& message, std::size_t role,
+                                   const MessageView& view) const;
   Time arrival(const BagMessage& message, const Channel& channel, const MessageView& view);
   Time due(const BagMessage& message, const Channel& channel, const MessageView& view);
   void release(Time due, std::vector<Delivery>& out);
@@ -270,34 +279,37 @@ bool RecordingReader::Impl::is_unset(const BagMessage& message, const Channel& c
   return false;
 }
 
+/// How long after its stamp and the usual latency a message was recorded; negative: before. Nothing
+/// where its stamp does not tell.
+std::optional<Duration> RecordingReader::Impl::lateness(const BagMessage& message,
+                                                        std::size_t role,
+                                                        const MessageView& view) const {
+  const auto stamp = view.time("header.stamp");
+  if (!stamp || !plan.latency[role] || plan.leaps[role]) return std::nullopt;
+  return message.record_time - (*stamp + *plan.latency[role]);
+}
+
 /// When a message arrives. One that is recorded before its stamp, as after the recorder's clock was
 /// set back or before it was set, is due at its stamp and the usual latency.
 Time RecordingReader::Impl::due(const BagMessage& message, const Channel& channel,
                                 const MessageView& view) {
   const Time recorded = message.record_time;
-  const auto* const serves = std::ranges::find(channel.serves, true);
-  if (serves == channel.serves.end()) return recorded;
-  const auto role = static_cast<std::size_t>(serves - channel.serves.begin());
-  const auto stamp = view.time("header.stamp");
-  if (!stamp || !plan.latency[role] || plan.leaps[role]) return recorded + plan.wait[role];
-  const Duration early = *stamp + *plan.latency[role] - recorded;
+  const auto role = first_role(channel);
+  if (!role) return recorded;
+  const Duration early = -lateness(message, *role, view).value_or(0);
   const bool unset = recorded < kSetRecordTime && plan.start > kSetRecordTime;
   if (early < plan.max_early || (early > plan.max_hold && !unset))
-    return recorded + plan.wait[role];
+    return recorded + plan.wait[*role];
   ++counts["recorded_before_their_stamp"];
-  return recorded + early + plan.wait[role];
+  return recorded + early + plan.wait[*role];
 }
 
 /// When a message was recorded. Where the recorder's clock was set forward, that is the usual
 /// latency after its stamp; arrivals never go back.
 Time RecordingReader::Impl::arrival(const BagMessage& message, const Channel& channel,
                                     const MessageView& view) {
-  const auto* const serves = std::ranges::find(channel.serves, true);
-  if (serves == channel.serves.end()) return message.record_time;
-  const auto role = static_cast<std::size_t>(serves - channel.serves.begin());
-  const auto stamp = view.time("header.stamp");
-  if (!stamp || !plan.latency[role] || plan.leaps[role]) return message.record_time;
-  const Duration late = message.record_time - (*stamp + *plan.latency[role]);
+  const auto role = first_role(channel);
+  const Duration late = role ? lateness(message, *role, view).value_or(0) : 0;
   if (late < kMaxLate) return message.record_time;
   ++counts["recorded_long_after_their_stamp"];
   return std::max(record_time, message.record_time - late);

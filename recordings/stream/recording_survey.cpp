@@ -103,19 +103,28 @@ void RecordingSurvey::add_imu(const MessageView& view) {
   const auto sample = imu_at(view, 0, ignored);
   if (!sample || !sample->specific_force.allFinite()) return;
   if (!sample->angular_velocity.allFinite()) return;
-  if (!first_samples_.empty()) {
-    const ImuSample& first = first_samples_.front();
-    gyro_changes_ = gyro_changes_ || sample->angular_velocity != first.angular_velocity;
-    force_changes_ = force_changes_ || sample->specific_force != first.specific_force;
-  }
   if (first_samples_.size() < kMaxSamples) first_samples_.push_back(*sample);
-  if (forces_.size() < kMaxSamples) forces_.push_back(sample->specific_force.norm());
   largest_turn_rate_ = std::max(largest_turn_rate_, sample->angular_velocity.norm());
-  if (turn_rates_.size() < kMaxSamples) {
-    turn_rates_.push_back(sample->angular_velocity.norm());
-    force_sum_ += sample->specific_force;
-  }
   oriented_ = oriented_ || sample->orientation.has_value();
+}
+
+double RecordingSurvey::median_norm(Eigen::Vector3d ImuSample::*part) const {
+  std::vector<double> norms;
+  for (const ImuSample& each : first_samples_) norms.push_back((each.*part).norm());
+  return upper_median(std::move(norms)).value_or(0.0);
+}
+
+Eigen::Vector3d RecordingSurvey::force_sum() const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const ImuSample& each : first_samples_) sum += each.specific_force;
+  return sum;
+}
+
+/// Whether any sample differs from the first one in this.
+bool RecordingSurvey::changes(Eigen::Vector3d ImuSample::*part) const {
+  return std::ranges::any_of(first_samples_, [&](const ImuSample& each) {
+    return each.*part != first_samples_.front().*part;
+  });
 }
 
 bool RecordingSurvey::enough(const std::string& topic) const {
@@ -156,18 +165,18 @@ void RecordingSurvey::warn_of_force(double force) {
 /// The unit of the accelerometer, which gravity gives away.
 void RecordingSurvey::decide_force_unit(RecordingPlan& plan) {
   ReadingNotes& notes = notes_;
-  const double force = upper_median(forces_).value_or(0.0);
+  const double force = median_norm(&ImuSample::specific_force);
   bool gravities = config_.imu_unit == ImuUnit::kGravities;
   // Gravity adds up over the samples; accelerations of a walk without it do not.
-  const double mean =
-      turn_rates_.empty() ? 0.0 : force_sum_.norm() / static_cast<double>(turn_rates_.size());
-  const bool gravity_free = !forces_.empty() && mean < kLeastGravity * force;
+  const bool any = !first_samples_.empty();
+  const double mean = any ? force_sum().norm() / static_cast<double>(first_samples_.size()) : 0.0;
+  const bool gravity_free = any && mean < kLeastGravity * force;
   if (gravity_free) {
     notes.warn("accelerometer without gravity",
                fmt::format("specific force of {:.3g} in the median but {:.3g} in the mean: gravity "
                            "is taken out, or the axes change; estimators need it as measured",
                            force, mean));
-  } else if (config_.imu_unit == ImuUnit::kAuto && !forces_.empty()) {
+  } else if (config_.imu_unit == ImuUnit::kAuto && any) {
     gravities = is_in_gravities(force);
     if (!gravities && (force < 5.0 || force > 15.0)) warn_of_force(force);
   }
@@ -202,10 +211,11 @@ void RecordingSurvey::decide_imu(RecordingPlan& plan) {
 
 /// Warns of a gyro whose numbers no robot turns by.
 void RecordingSurvey::warn_of_gyro(const RecordingPlan& plan) {
-  const double turning = plan.turn_scale * upper_median(turn_rates_).value_or(0.0);
+  const double turning = plan.turn_scale * median_norm(&ImuSample::angular_velocity);
   const double fastest = plan.turn_scale * largest_turn_rate_;
   constexpr std::size_t kLeast = 100;  // samples
-  if (first_samples_.size() >= kLeast && !gyro_changes_ && force_changes_) {
+  if (first_samples_.size() >= kLeast && !changes(&ImuSample::angular_velocity) &&
+      changes(&ImuSample::specific_force)) {
     const Eigen::Vector3d rate = first_samples_.front().angular_velocity;
     notes_.warn("gyroscope does not measure",
                 fmt::format("angular velocity is ({:.3g}, {:.3g}, {:.3g}) in all {} samples while "
@@ -328,11 +338,12 @@ void RecordingSurvey::decide_frames(RecordingPlan& plan) {
 
 /// A robot starts upright: its IMU measures an upward force in the axes of the LiDAR and the base.
 void RecordingSurvey::warn_of_up(const RecordingSetup& setup) {
-  const double norm = force_sum_.norm();
+  const Eigen::Vector3d force = force_sum();
+  const double norm = force.norm();
   if (!(norm > 0.0)) return;
   const auto warn = [&](bool used, const Pose& T_body_sensor, std::string_view sensor,
                         std::string_view key) {
-    const Eigen::Vector3d up = T_body_sensor.rotation.conjugate() * force_sum_ / norm;
+    const Eigen::Vector3d up = T_body_sensor.rotation.conjugate() * force / norm;
     if (!used || up.z() > -0.5) return;
     notes_.warn(
         "IMU upside down, or a sign of the accelerometer wrong",

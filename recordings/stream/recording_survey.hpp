@@ -99,6 +99,9 @@ class RecordingSurvey {
   void warn_of(WarnedSensor sensor, std::size_t first);
   void warn_of_up(const RecordingSetup& setup);
   std::set<std::string> unstamped_states() const;
+  double median_norm(Eigen::Vector3d ImuSample::*part) const;
+  Eigen::Vector3d force_sum() const;
+  bool changes(Eigen::Vector3d ImuSample::*part) const;
   void warn_of_force(double force);
   void decide_force_unit(RecordingPlan& plan);
   void warn_of_gyro(const RecordingPlan& plan);
@@ -116,14 +119,10 @@ class RecordingSurvey {
   std::array<Seen, kRoleCount> seen_;
   std::map<std::string, RepeatFinder> repeats_;  ///< by topic
   CloudSurvey clouds_;
-  std::string cloud_error_;                              ///< of the first that could not be read
-  std::vector<double> forces_;                           ///< norms, in the recorded unit
-  std::vector<ImuSample> first_samples_;                 ///< of the IMU, as recorded
-  bool gyro_changes_ = false, force_changes_ = false;    ///< from sample to sample
-  bool oriented_ = false;                                ///< an IMU message has an orientation
-  double largest_turn_rate_ = 0.0;                       ///< [rad/s]
-  std::vector<double> turn_rates_;                       ///< norms [rad/s]
-  Eigen::Vector3d force_sum_ = Eigen::Vector3d::Zero();  ///< in the recorded unit
+  std::string cloud_error_;               ///< of the first that could not be read
+  std::vector<ImuSample> first_samples_;  ///< of the IMU, as recorded
+  bool oriented_ = false;                 ///< an IMU message has an orientation
+  double largest_turn_rate_ = 0.0;        ///< [rad/s]
   ReadingNotes notes_;
   std::optional<Time> first_set_;  ///< earliest record time of a set clock
   LegSurvey legs_;

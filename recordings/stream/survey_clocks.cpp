@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "recordings/clouds/stamp_steps.hpp"
 #include "recordings/median.hpp"
 #include "recordings/stream/record_clock.hpp"
 #include "recordings/stream/recording_survey.hpp"
@@ -23,12 +24,10 @@ constexpr Duration kLongestStep = 100'000 * kSecond;  ///< a day, as of a wrong 
 constexpr Duration kMaxBetween = kSecond;             ///< of the samples before and after a step
 constexpr std::size_t kFirst = 20;  ///< messages whose latency is that before a step
 
-/// Zero, or of a clock that stands still or counts whole seconds.
-bool hardly_advance(const std::vector<Time>& stamps) {
-  if (stamps.size() < 3) return false;
+bool stamps_stand(const std::vector<Time>& stamps) {
   std::size_t steps = 0;
   for (std::size_t i = 1; i < stamps.size(); ++i) steps += stamps[i] != stamps[i - 1] ? 1 : 0;
-  return steps * 5 < stamps.size();
+  return hardly_advance(steps, stamps.size());
 }
 
 /// The latency that a tenth of the messages do not reach: others were delayed.
@@ -167,7 +166,7 @@ bool RecordingSurvey::leaps_alone(Role role, const Leap& leap) const {
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     const Seen& other = seen_[i];
     const std::string& name = topic_of(topics_, static_cast<Role>(i));
-    if (name == topic || name.empty() || other.unstamped || hardly_advance(other.stamps)) continue;
+    if (name == topic || name.empty() || other.unstamped || stamps_stand(other.stamps)) continue;
     bool before = false, behind = false;
     for (std::size_t k = 0; k < other.stamps.size(); ++k) {
       const Duration after = other.stamps[k] + other.latencies[k] - leap.recorded;
@@ -294,7 +293,7 @@ void RecordingSurvey::decide_stamps(RecordingPlan& plan) {
     if (topic.empty()) continue;
     if (seen_[i].stamps.empty()) {
       note_silence(role, topic);
-    } else if (hardly_advance(seen_[i].stamps)) {
+    } else if (stamps_stand(seen_[i].stamps)) {
       plan.stamped_by_record[i] = true;
       note_record_times(role, topic);
     } else if (const auto leap = step ? std::nullopt : decide_leap(role, plan)) {
