@@ -210,7 +210,11 @@ class LiveEstimate(unittest.TestCase):
         self.assert_same(Live("walk.bag", "arrival", PATIENT))
 
     def test_overloaded_it_drops_the_oldest_clouds_and_counts_them(self):
-        live = Live("walk.mcap", "overload", ["--source_time"], ["--rate", "100"])
+        live = Live("walk.mcap", "overload", ["--source_time"])
+        live.wait_for("walk", lambda: live.written() and distance(places(live.poses())[-1], (0, 0, 0)) > 0.5)
+        live.live.send_signal(signal.SIGSTOP)  # as if another program took the processor
+        time.sleep(1.5)
+        live.live.send_signal(signal.SIGCONT)
         self.assertEqual(live.finish(), 0, live.log())
         dropped = re.search(r"note: (\d+) messages dropped, since the node was too slow", live.log())
         self.assertIsNotNone(dropped, live.log())
