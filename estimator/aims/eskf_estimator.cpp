@@ -54,7 +54,7 @@ EskfEstimator::EskfEstimator(const EskfConfig& config, const SensorRig& rig,
               config_.imu.gravity),
       robot_(config_, rig.imu_rate_hz),
       feet_(config_.feet, rig, config_.imu.gravity,
-            config_.lidar.enabled ? VerticalReference::kFilter : VerticalReference::kLevelGround) {
+            config_.lidar.enabled ? VerticalReference::kHeight : VerticalReference::kLevelGround) {
   result_.diagnostics.series = scan_series();
   if (const auto known_compliance = known(config_.prior, "joint_compliance")) {
     feet_.compliance().know(known_compliance->mean(0),
@@ -190,6 +190,7 @@ void EskfEstimator::count_scan(const ScanDiagnostics& diagnostics) {
 void EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
   const Belief predicted = belief_;
   const MotionVariance by_legs = std::exchange(taken_by_legs_, {});
+  lidar_update_.hold_legs(!legs_are_final());
   const ScanPart part = mapping_ ? ScanPart::kAll : ScanPart::kReal;
   accept(matching(), lidar_update_.update(matching(), points_.to_match(), map_, calibration_, part,
                                           diagnostics, leg_free_.belief()));
@@ -212,8 +213,7 @@ void EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
         across.tail<2>().squaredNorm() / 2.0 + by_legs.velocity, since_last);
   }
   apply_calibration();
-  if (measures_legs(config_) && mapping_ && last_leg_ &&
-      (feet_.compliance().is_learned() || !feet_.applies(*last_leg_))) {
+  if (measures_legs(config_) && mapping_ && last_leg_ && legs_are_final()) {
     robot_.compare_legs(belief_.state, mapping_->state, since_last);
   }
   if (legs_are_known()) mapping_.reset();
@@ -233,6 +233,12 @@ void EskfEstimator::note_contradictions() {
 
 std::vector<LearnedQuantity> EskfEstimator::learned() const {
   return robot_.learned(belief_, feet_.compliance(), queue_.imu().noise().density());
+}
+
+/// Whether leg packets mean what they will mean to the end. Until the compliance of the joints is
+/// learned, scale and bias would be those of other legs, and take the drift that shows it.
+bool EskfEstimator::legs_are_final() const {
+  return !last_leg_ || !feet_.applies(*last_leg_) || feet_.compliance().is_learned();
 }
 
 /// Whether scans are mapped from the estimate: once the leg scale is known to 5 % and the scan

@@ -71,6 +71,7 @@ class EskfEstimator : public Estimator, public MotionSource {
   ScanDiagnostics diagnostics_of_prediction();
   void record_scan(ScanDiagnostics& diagnostics);
   void apply_calibration();
+  bool legs_are_final() const;
   bool legs_are_known() const;
   void fuse_ground_constraint();
   bool near_start() const;

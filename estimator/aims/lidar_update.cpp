@@ -116,7 +116,7 @@ Linearization LidarUpdate::fused(ScanPart part, double gamma, const NominalState
 }
 
 GainMask LidarUpdate::scan_mask(const NominalState& state) const {
-  if (!considers_legs()) return {};
+  if (!considers_legs()) return {.legs = !holds_legs_};
   const bool free = fraction_.leaves_direction_free();
   Eigen::Matrix3d translation = free ? fraction_.constrained() : Eigen::Matrix3d::Identity();
   if (measures_legs_) {

@@ -50,6 +50,9 @@ class LidarUpdate {
   /// scan does not constrain the two beliefs may be far apart.
   Belief update_with_real_part(const Belief& predicted, const VoxelMap& map);
 
+  /// From the next scan on: whether scans leave leg scale and bias as they are.
+  void hold_legs(bool held) { holds_legs_ = held; }
+
   /// gamma_leg after the last scan, eq. (10); 1 before the first.
   double gamma_leg() const { return gamma_leg_; }
 
@@ -103,6 +106,7 @@ class LidarUpdate {
   NominalState matched_at_;               ///< where its matches were linearized last
   DegeneracyConfig degeneracy_;
   CrossValidationConfig cross_validation_;
+  bool holds_legs_ = false;
   bool measures_legs_;  ///< the real part holds nothing along the way
   CrossValidatedInformation fraction_;
   bool map_covariance_enabled_;

@@ -2,11 +2,15 @@
 #include "estimator/legs/feet_odometry.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "estimator/filter/imu_propagation.hpp"
 
 namespace aims {
 namespace {
+
+/// Between packets that lie further apart the height says nothing of the feet.
+constexpr Duration kLongestPause = kSecond / 10;
 
 Eigen::Vector3d up_in_base(const NominalState& state, const Pose& T_body_base) {
   return T_body_base.rotation.conjugate() * (state.rotation.conjugate() * Eigen::Vector3d::UnitZ());
@@ -48,17 +52,26 @@ std::array<bool, kLegCount> FeetOdometry::contacts_of(const LegOdometrySample& s
   return contacts_reported_ ? sample.contact : all;
 }
 
+/// The true vertical velocity since the last packet [m/s]. Not that of the belief: feet pull it all
+/// the time, and a scan that corrects it says so in the height.
+double FeetOdometry::climb_since_last(Time stamp, double height) {
+  const double since = to_seconds(stamp - std::exchange(last_stamp_, stamp));
+  const double climbed = height - std::exchange(last_height_, height);
+  const bool measured = vertical_ == VerticalReference::kHeight && since < to_seconds(kLongestPause);
+  return measured ? climbed / since : 0.0;
+}
+
 /// Feet are weighted as rigid legs have them: with the present compliance the vertical drift would
 /// depend on itself, and the estimate would run away.
 void FeetOdometry::learn_compliance(const JointState& joints, const Eigen::Vector3d& turning,
-                                    const Eigen::Vector3d& up, const FootSelection& select) {
+                                    const Eigen::Vector3d& up, const FootSelection& select,
+                                    double climb) {
   const FootVelocities rigid = velocities_from_feet(joints, 0.0, turning, up, rig_.leg_geometry);
   const FootWeights weights = select.weights(rigid);
   if (total_weight(weights) == 0.0) return;
   const JointState yielding{joints.angle, joints.yield_rate, JointVector::Zero(), 0.0};
   const FootVelocities change =
       velocities_from_feet(yielding, 0.0, Eigen::Vector3d::Zero(), up, rig_.leg_geometry);
-  const double climb = vertical_ == VerticalReference::kFilter ? up.dot(select.predicted) : 0.0;
   compliance_.update(up.dot(mean_of_feet(rigid, weights)) - climb,
                      up.dot(mean_of_feet(change, weights)), rig_.leg_rate_hz);
 }
@@ -66,6 +79,7 @@ void FeetOdometry::learn_compliance(const JointState& joints, const Eigen::Vecto
 std::optional<LinearMeasurement> FeetOdometry::measure(const LegOdometrySample& sample,
                                                        const Belief& belief,
                                                        const ImuHistory& imu) {
+  const double climb = climb_since_last(sample.stamp, belief.state.position.z());
   const std::optional<JointState> joints = joints_of_packet(sample, belief.state);
   if (!joints) return std::nullopt;
   const auto [state, motion] =
@@ -93,7 +107,7 @@ std::optional<LinearMeasurement> FeetOdometry::measure(const LegOdometrySample& 
   const double variance = variance_of_feet(weight, rig_.leg_rate_hz);
   const LinearMeasurement measurement = model(velocity_, variance);
 
-  learn_compliance(*joints, turning, up, select);
+  learn_compliance(*joints, turning, up, select, climb);
   return measurement;
 }
 

@@ -16,7 +16,7 @@ namespace aims {
 
 /// Where the true vertical velocity is known from, against which feet show their compliance.
 enum class VerticalReference {
-  kFilter,       ///< the belief, which scans hold
+  kHeight,       ///< the height of the belief, which scans correct
   kLevelGround,  ///< nothing measures it: the ground is taken as level on average
 };
 
@@ -61,7 +61,8 @@ class FeetOdometry {
   std::optional<JointState> joints_of_packet(const LegOdometrySample& sample,
                                              const NominalState& state);
   void learn_compliance(const JointState& joints, const Eigen::Vector3d& turning,
-                        const Eigen::Vector3d& up, const FootSelection& select);
+                        const Eigen::Vector3d& up, const FootSelection& select, double climb);
+  double climb_since_last(Time stamp, double height);
   std::array<bool, kLegCount> contacts_of(const LegOdometrySample& sample);
 
   FeetConfig config_;
@@ -70,6 +71,8 @@ class FeetOdometry {
   VerticalReference vertical_;
   JointDifference difference_;
   JointCompliance compliance_;
+  Time last_stamp_ = 0;
+  double last_height_ = 0.0;  ///< of the belief at the last packet [m]
   StrideMeans stride_means_;  ///< of the predicted velocity: that of a foot is too noisy
   LegVelocity velocity_;
   bool contacts_reported_ = false;  ///< by any packet so far

@@ -47,6 +47,19 @@ TEST(LidarUpdate, KnowsThatAllDirectionsAreConstrainedByCrossValidationOnly) {
   EXPECT_FALSE(CorridorWalk(true, "tfs_plus").update.constrains_all_directions());
 }
 
+// Between pillars a scan corrects the leg scale; while the compliance of the joints is being
+// learned it leaves the scale alone.
+TEST(LidarUpdate, LegsThatAreHeldKeepTheirScale) {
+  for (const bool held : {false, true}) {
+    CorridorWalk walk(true);
+    const Belief predicted = correlated_prediction(walk.truth);
+    walk.update.hold_legs(held);
+    const Belief updated = walk.fuse(predicted);
+    EXPECT_NEAR(updated.state.position.x(), walk.truth.x(), 0.02);
+    EXPECT_EQ((updated.state.leg_scale - predicted.state.leg_scale).norm() < 1e-9, held);
+  }
+}
+
 TEST(LidarUpdate, PlainWallsCorrectAcrossThemOnly) {
   CorridorWalk walk(false);
   const Belief predicted = correlated_prediction(walk.truth);
