@@ -112,7 +112,7 @@ Linearization LidarUpdate::fused(ScanPart part, double gamma, const NominalState
   }
   return {scan_measurement(gamma * pose.matrix, gamma * pose.vector, calibration_,
                            state.rotation.toRotationMatrix()),
-          real ? scan_mask(state) : GainMask()};
+          real ? scan_mask(state) : GainMask{.legs = !holds_legs_}};
 }
 
 GainMask LidarUpdate::scan_mask(const NominalState& state) const {
