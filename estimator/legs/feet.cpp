@@ -56,7 +56,8 @@ std::optional<JointState> JointDifference::update(const JointPacket& reading) {
     const JointPacket& before = past_.front();
     const double step = to_seconds(since(before));
     state = {0.5 * (reading.angle + before.angle), (reading.angle - before.angle) / step,
-             (reading.yield - before.yield) / step, 0.5 * step};
+             (reading.yield - before.yield) / step, (reading.load - before.load) / step,
+             0.5 * step};
   }
   past_.push_back(reading);
   return state;

@@ -19,11 +19,15 @@ struct FeetConfig {
 
 void describe(Fields& fields, FeetConfig& config);
 
+/// The load on each foot as a part of the mean load on all.
+using LoadShares = Eigen::Matrix<double, kLegCount, 1>;
+
 /// Joints at an instant, and how they yield.
 struct JointPacket {
   Time stamp = 0;
   JointVector angle = JointVector::Zero();  ///< at the encoders [rad]
   JointVector yield = JointVector::Zero();  ///< link beyond encoder, per unit of compliance [m]
+  LoadShares load = LoadShares::Zero();
 };
 
 /// Means over the interval between two readings.
@@ -31,6 +35,7 @@ struct JointState {
   JointVector angle = JointVector::Zero();       ///< [rad]
   JointVector rate = JointVector::Zero();        ///< of the angle [rad/s]
   JointVector yield_rate = JointVector::Zero();  ///< of the yield [m/s]
+  LoadShares load_rate = LoadShares::Zero();     ///< [1/s]
   double age = 0.0;                              ///< middle of the interval, before its end [s]
 };
 

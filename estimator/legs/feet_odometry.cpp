@@ -40,8 +40,9 @@ std::optional<JointState> FeetOdometry::joints_of_packet(const LegOdometrySample
                                                          const NominalState& state) {
   const Eigen::Map<const JointVector> angle(sample.joint_position.data());
   const Eigen::Vector3d up = up_in_base(state, rig_.T_body_base);
+  const LoadShares shares = compliance_.shares(sample, rig_.leg_rate_hz);
   return difference_.update(
-      {sample.stamp, angle, compliance_.yield(sample, up, rig_.leg_geometry, rig_.leg_rate_hz)});
+      {sample.stamp, angle, yield_of_joints(angle, shares, up, rig_.leg_geometry), shares});
 }
 
 /// The detected contacts; all feet where no packet has reported any.
@@ -57,7 +58,8 @@ std::array<bool, kLegCount> FeetOdometry::contacts_of(const LegOdometrySample& s
 double FeetOdometry::climb_since_last(Time stamp, double height) {
   const double since = to_seconds(stamp - std::exchange(last_stamp_, stamp));
   const double climbed = height - std::exchange(last_height_, height);
-  const bool measured = vertical_ == VerticalReference::kHeight && since < to_seconds(kLongestPause);
+  const bool measured =
+      vertical_ == VerticalReference::kHeight && since < to_seconds(kLongestPause);
   return measured ? climbed / since : 0.0;
 }
 
@@ -69,11 +71,16 @@ void FeetOdometry::learn_compliance(const JointState& joints, const Eigen::Vecto
   const FootVelocities rigid = velocities_from_feet(joints, 0.0, turning, up, rig_.leg_geometry);
   const FootWeights weights = select.weights(rigid);
   if (total_weight(weights) == 0.0) return;
-  const JointState yielding{joints.angle, joints.yield_rate, JointVector::Zero(), 0.0};
+  JointState yielding;
+  yielding.angle = joints.angle;
+  yielding.rate = joints.yield_rate;
   const FootVelocities change =
       velocities_from_feet(yielding, 0.0, Eigen::Vector3d::Zero(), up, rig_.leg_geometry);
-  compliance_.update(up.dot(mean_of_feet(rigid, weights)) - climb,
-                     up.dot(mean_of_feet(change, weights)), rig_.leg_rate_hz);
+  const Eigen::Map<const LoadShares> weight(weights.data());
+  compliance_.update(
+      {up.dot(mean_of_feet(rigid, weights)) - climb, up.dot(mean_of_feet(change, weights)),
+       -weight.dot(joints.load_rate) / weight.sum()},
+      rig_.leg_rate_hz);
 }
 
 std::optional<LinearMeasurement> FeetOdometry::measure(const LegOdometrySample& sample,

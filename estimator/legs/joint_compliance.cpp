@@ -18,6 +18,11 @@ constexpr double kLearningTime = 20.0;
 /// Deviation of the mean vertical velocity by rigid legs [m/s].
 constexpr double kClimbSigma = 0.01;
 
+/// How far the weight compresses a rubber foot, and its deviation [m]: feet of 10 to 50 kN/m under
+/// 12 kg.
+constexpr double kRubber = 5e-3;
+constexpr double kRubberSigma = 4e-3;
+
 /// Softer joints do not carry a robot [rad/m].
 constexpr double kLargestCompliance = 3.0;
 
@@ -25,43 +30,53 @@ double gain_of(double time, double rate_hz) { return 1.0 - std::exp(-1.0 / (time
 
 }  // namespace
 
-JointVector JointCompliance::yield(const LegOdometrySample& sample, const Eigen::Vector3d& up,
-                                   const LegGeometry& geometry, double rate_hz) {
-  JointVector yield = JointVector::Zero();
-  if (!sample.contact_force) return yield;
-  FootLoads loads = *sample.contact_force;
-  double sum = 0.0;
-  for (double& load : loads) {
-    load = std::isfinite(load) ? std::max(load, 0.0) : 0.0;
-    sum += load;
-  }
-  mean_load_ =
-      mean_load_ == 0.0 ? sum : mean_load_ + gain_of(kLoadTime, rate_hz) * (sum - mean_load_);
-  if (!(mean_load_ > 0.0)) return yield;
-  const Eigen::Map<const JointVector> angle(sample.joint_position.data());
+JointVector yield_of_joints(const JointVector& angle, const LoadShares& shares,
+                            const Eigen::Vector3d& up, const LegGeometry& geometry) {
+  JointVector yield;
   for (int leg = 0; leg < kLegCount; ++leg) {
-    const double share = loads[static_cast<std::size_t>(leg)] / mean_load_;
     yield.segment<3>(3 * leg) =
-        share * foot_jacobian(leg, joints_of(angle, leg), geometry).transpose() * up;
+        shares(leg) * foot_jacobian(leg, joints_of(angle, leg), geometry).transpose() * up;
   }
   return yield;
 }
 
+LoadShares JointCompliance::shares(const LegOdometrySample& sample, double rate_hz) {
+  LoadShares loads = LoadShares::Zero();
+  if (!sample.contact_force) return loads;
+  for (int leg = 0; leg < kLegCount; ++leg) {
+    const double load = (*sample.contact_force)[static_cast<std::size_t>(leg)];
+    loads(leg) = std::isfinite(load) ? std::max(load, 0.0) : 0.0;
+  }
+  const double sum = loads.sum();
+  mean_load_ =
+      mean_load_ == 0.0 ? sum : mean_load_ + gain_of(kLoadTime, rate_hz) * (sum - mean_load_);
+  return mean_load_ > 0.0 ? LoadShares(loads / mean_load_) : LoadShares::Zero();
+}
+
 bool JointCompliance::is_learned() const { return known_variance_ || walked_ >= kLearningTime; }
 
-void JointCompliance::update(double climb, double change, double rate_hz) {
+void JointCompliance::update(const Drift& drift, double rate_hz) {
   if (walked_ >= kLearningTime) return;
   walked_ = std::min(walked_ + 1.0 / rate_hz, kLearningTime);
   const double gain = 1.0 / (walked_ * rate_hz);
-  climb_ += gain * (climb - climb_);
-  change_ += gain * (change - change_);
+  mean_.climb += gain * (drift.climb - mean_.climb);
+  mean_.joints += gain * (drift.joints - mean_.joints);
+  mean_.rubber += gain * (drift.rubber - mean_.rubber);
   judge_known();
   if (known_variance_) return;
-  const double response = kSigma * kSigma * change_;
-  const double noise = kClimbSigma * kClimbSigma * kLearningTime / walked_;
-  const double beyond_prior = climb_ + change_ * kPrior;
-  value_ = std::clamp(kPrior - response * beyond_prior / (response * change_ + noise), 0.0,
-                      kLargestCompliance);
+  const double response = kSigma * kSigma * mean_.joints;
+  const double beyond_prior = beyond_rubber() + mean_.joints * kPrior;
+  value_ = std::clamp(kPrior - response * beyond_prior / (response * mean_.joints + variance()),
+                      0.0, kLargestCompliance);
+}
+
+/// The mean climb that rubber of the usual stiffness does not explain [m/s].
+double JointCompliance::beyond_rubber() const { return mean_.climb + mean_.rubber * kRubber; }
+
+/// Of that climb, by legs of rigid joints [m^2/s^2].
+double JointCompliance::variance() const {
+  const double rubber = mean_.rubber * kRubberSigma;
+  return kClimbSigma * kClimbSigma * kLearningTime / walked_ + rubber * rubber;
 }
 
 void JointCompliance::know(double value, double sigma) {
@@ -73,17 +88,18 @@ void JointCompliance::know(double value, double sigma) {
 void JointCompliance::judge_known() {
   if (!known_variance_ || walked_ < kLearningTime || information() == 0.0) return;
   const double difference = information_vector() / information() - value_;
-  contradicted_ = difference * difference > kChiSquare9999[0] * (1.0 / information() + *known_variance_);
+  contradicted_ =
+      difference * difference > kChiSquare9999[0] * (1.0 / information() + *known_variance_);
   if (contradicted_) known_variance_.reset();
 }
 
 double JointCompliance::information() const {
-  return change_ * change_ * walked_ / (kClimbSigma * kClimbSigma * kLearningTime);
+  return walked_ > 0.0 ? mean_.joints * mean_.joints / variance() : 0.0;
 }
 
 double JointCompliance::information_vector() const {
-  if (change_ == 0.0) return 0.0;
-  return information() * std::clamp(-climb_ / change_, 0.0, kLargestCompliance);
+  if (mean_.joints == 0.0) return 0.0;
+  return information() * std::clamp(-beyond_rubber() / mean_.joints, 0.0, kLargestCompliance);
 }
 
 }  // namespace aims

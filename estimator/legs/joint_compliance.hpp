@@ -6,8 +6,14 @@
 #include "core/leg_geometry.hpp"
 #include "core/leg_kinematics.hpp"
 #include "core/measurements.hpp"
+#include "estimator/legs/feet.hpp"
 
 namespace aims {
+
+/// Angles of the links beyond their encoders for W / K = 1 rad/m under those shares of the load
+/// [m]; `angle` at the encoders [rad], `up` in base axes.
+JointVector yield_of_joints(const JointVector& angle, const LoadShares& shares,
+                            const Eigen::Vector3d& up, const LegGeometry& geometry);
 
 /// Compliance of the joints: under the load f a link lies beyond its encoder by J^T f / K, with the
 /// stiffness K. Loads are seldom calibrated, so f_i = W s_i u with the share s_i of a foot in the
@@ -16,9 +22,10 @@ namespace aims {
 /// A leg that yields gives way at touchdown and springs back after the foot has left the ground,
 /// where it no longer counts: by its encoders the robot sinks, or climbs, with every step. So the
 /// mean vertical velocity by the feet, against the true one, shows W / K; what happens within a
-/// stance does not, since other errors of a foot look alike there. Lengths of links, rolling and
-/// rubber let rigid legs drift too, by a constant that no time averages out: W / K is the most
-/// probable value under its prior and that of this constant.
+/// stance does not, since other errors of a foot look alike there. Rubber feet that the weight
+/// compresses by W / k sink likewise, without shortening a stride; lengths of links and rolling let
+/// rigid legs drift too, by a constant that no time averages out. W / K is the most probable value
+/// under its prior and those of W / k and of this constant.
 class JointCompliance {
  public:
   /// Stiff legs, as those of a Unitree Go1; soft ones (80 N m/rad under 12 kg) have 1.5 rad/m.
@@ -41,23 +48,28 @@ class JointCompliance {
   double information() const;
   double information_vector() const;
 
-  /// Angles of the links beyond their encoders for W / K = 1 rad/m [m], by the loads of `sample`;
-  /// `up` in base axes. Zero without loads. Call once per sample: it follows the mean load.
-  JointVector yield(const LegOdometrySample& sample, const Eigen::Vector3d& up,
-                    const LegGeometry& geometry, double rate_hz);
+  /// The shares s_i of the loads of `sample`, at `rate_hz` [Hz]. Zero without loads. Call once per
+  /// sample: they follow the mean load.
+  LoadShares shares(const LegOdometrySample& sample, double rate_hz);
 
-  /// `climb`: vertical velocity by the feet of a rigid leg minus the true one [m/s]; `change`: its
-  /// derivative by W / K [m^2/(rad s)]; at `rate_hz` [Hz]. Learns for 20 s, then stays.
-  void update(double climb, double change, double rate_hz);
+  /// What feet drift vertically, mean over the feet that stand.
+  struct Drift {
+    double climb = 0.0;   ///< vertical velocity by rigid legs minus the true one [m/s]
+    double joints = 0.0;  ///< its derivative by W / K [m^2/(rad s)]
+    double rubber = 0.0;  ///< its derivative by W / k [1/s]
+  };
+  /// Adds a packet's `drift`, at `rate_hz` [Hz]. Learns for 20 s, then stays.
+  void update(const Drift& drift, double rate_hz);
 
  private:
   void judge_known();
+  double variance() const;
+  double beyond_rubber() const;
 
   double value_ = kPrior;
   double mean_load_ = 0.0;  ///< of all feet together
   double walked_ = 0.0;     ///< time of the means [s]
-  double climb_ = 0.0;      ///< mean
-  double change_ = 0.0;     ///< mean
+  Drift mean_;
   std::optional<double> known_variance_;
   bool contradicted_ = false;
 };

@@ -25,8 +25,10 @@ LegOdometrySample standing(double load) {
 // tau = J^T f, and each foot carries a quarter: K dq = J^T u W / 4.
 TEST(JointCompliance, YieldsByTheTorqueOfItsShareOfTheLoad) {
   JointCompliance compliance;
+  const LegOdometrySample sample = standing(31.0);
   const JointVector yield =
-      compliance.yield(standing(31.0), Eigen::Vector3d::UnitZ(), kLegs, kRate);
+      yield_of_joints(Eigen::Map<const JointVector>(sample.joint_position.data()),
+                      compliance.shares(sample, kRate), Eigen::Vector3d::UnitZ(), kLegs);
   const double stiffness = 200.0;
   const double weight = 4.0 * 31.0;
   for (int leg = 0; leg < kLegCount; ++leg) {
@@ -41,9 +43,9 @@ TEST(JointCompliance, StaysAtItsPriorWithoutLoads) {
   JointCompliance compliance;
   LegOdometrySample sample = standing(0.0);
   sample.contact_force.reset();
-  EXPECT_TRUE(compliance.yield(sample, Eigen::Vector3d::UnitZ(), kLegs, kRate).isZero(0.0));
+  EXPECT_TRUE(compliance.shares(sample, kRate).isZero(0.0));
   const double before = compliance.value();
-  for (int i = 0; i < 1000; ++i) compliance.update(-0.1, 0.0, kRate);
+  for (int i = 0; i < 1000; ++i) compliance.update({-0.1, 0.0}, kRate);
   EXPECT_EQ(compliance.value(), before);
 }
 
@@ -53,7 +55,7 @@ TEST(JointCompliance, IsLearnedFromTheVerticalDrift) {
     JointCompliance compliance;
     for (int i = 0; i < 60 * 200; ++i) {
       const double ripple = 0.2 * std::sin(2.0 * M_PI * 4.0 * i / kRate);
-      compliance.update(-0.1 * truth + ripple, 0.1, kRate);
+      compliance.update({-0.1 * truth + ripple, 0.1}, kRate);
     }
     EXPECT_NEAR(compliance.value(), truth, 0.1 * truth + 0.02);
   }
@@ -61,26 +63,26 @@ TEST(JointCompliance, IsLearnedFromTheVerticalDrift) {
 
 TEST(JointCompliance, StaysAfterTwentySecondsOfWalking) {
   JointCompliance compliance;
-  for (int i = 0; i < 19 * 200; ++i) compliance.update(-0.03, 0.1, kRate);
+  for (int i = 0; i < 19 * 200; ++i) compliance.update({-0.03, 0.1}, kRate);
   EXPECT_FALSE(compliance.is_learned());
-  for (int i = 0; i < 2 * 200; ++i) compliance.update(-0.03, 0.1, kRate);
+  for (int i = 0; i < 2 * 200; ++i) compliance.update({-0.03, 0.1}, kRate);
   EXPECT_TRUE(compliance.is_learned());
   const double learned = compliance.value();
-  for (int i = 0; i < 60 * 200; ++i) compliance.update(0.1, 0.1, kRate);
+  for (int i = 0; i < 60 * 200; ++i) compliance.update({0.1, 0.1}, kRate);
   EXPECT_EQ(compliance.value(), learned);
 }
 
 // A drift within that of rigid legs says little, however long the robot walks.
 TEST(JointCompliance, ADriftThatRigidLegsHaveIsNotCompliance) {
   JointCompliance compliance;
-  for (int i = 0; i < 600 * 200; ++i) compliance.update(-0.005, 0.02, kRate);
+  for (int i = 0; i < 600 * 200; ++i) compliance.update({-0.005, 0.02}, kRate);
   EXPECT_GT(compliance.value(), 0.05);
   EXPECT_LT(compliance.value(), 0.15);  // 0.25 by that drift alone
 }
 
 TEST(JointCompliance, IsNeverNegative) {
   JointCompliance compliance;
-  for (int i = 0; i < 4000; ++i) compliance.update(0.1, 0.1, kRate);
+  for (int i = 0; i < 4000; ++i) compliance.update({0.1, 0.1}, kRate);
   EXPECT_EQ(compliance.value(), 0.0);
 }
 
