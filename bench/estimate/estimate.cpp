@@ -11,6 +11,7 @@
 #include "bench/estimate/bag_origin.hpp"
 #include "bench/estimate/count_warnings.hpp"
 #include "bench/estimate/estimate_log.hpp"
+#include "bench/estimate/mount_check.hpp"
 #include "bench/estimate/python_classes.hpp"
 #include "bench/estimate/ring_note.hpp"
 #include "bench/estimate/scoring_input.hpp"
@@ -171,6 +172,7 @@ std::vector<std::string> reasons_of(const EstimateConfig& config, const Recordin
 /// Adds what the counts of the whole recording say to the warnings, and all of them to the health.
 void warn_in_health(const EstimateConfig& config, EstimateResult& result) {
   warn_of_counts(result);
+  if (result.rotations) result.setup.warnings.push_back(*result.rotations);
   for (EstimatorOutcome& each : result.estimators) {
     const auto reasons = reasons_of(config, result.setup, each.name);
     if (reasons.empty()) continue;
@@ -208,6 +210,7 @@ Result<StreamEnd> stream_into_log(const EstimateConfig& config, RecordingReader&
   }
   auto log = EstimateLog::create(options.folder, estimators, std::move(reasons));
   if (!log) return tl::unexpected(log.error());
+  auto evidence = RotationEvidence::create(result.setup, WatchedScans::kTurns);
   const bool in_memory = options.folder.empty();
   Result<void> taken;
   const auto take = [&] {
@@ -217,6 +220,7 @@ Result<StreamEnd> stream_into_log(const EstimateConfig& config, RecordingReader&
   };
   const auto next_batch = [&](std::vector<Delivery>& batch) {
     auto more = reader.advance(kStreamBatch, batch);
+    if (evidence) evidence->consume(batch);
     for (const Delivery& each : batch) {
       const auto* scan = std::get_if<LidarScanPtr>(&each.measurement);
       if (scan == nullptr) continue;
@@ -229,6 +233,8 @@ Result<StreamEnd> stream_into_log(const EstimateConfig& config, RecordingReader&
       stream(next_batch, estimators, options.jobs, [&] { return take() && observed(); });
   if (take()) taken = log->commit(estimators);
   if (!taken) return tl::unexpected(taken.error());
+  if (evidence) evidence->finish();
+  if (evidence) result.rotations = warning_of(*evidence, result.setup.rig.T_body_lidar);
   result.truth = reader.take_truth();
   for (std::size_t i = 0; i < estimators.size(); ++i) {
     const TimedEstimator& each = estimators[i];

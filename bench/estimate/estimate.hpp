@@ -59,11 +59,12 @@ struct EstimateResult {
   std::vector<std::filesystem::path> with;  ///< its further files
   RecordingSetup setup;
   BagSummary summary;
-  std::map<std::string, int> counts;  ///< of what was odd in the messages
-  int clouds = 0;                     ///< of the LiDAR
-  bool complete = false;              ///< false when the observer ended it early
-  std::optional<Error> broken;        ///< the bag ended in an error; what came before is estimated
-  double recorded_s = 0.0;            ///< of the recording that was read
+  std::map<std::string, int> counts;        ///< of what was odd in the messages
+  int clouds = 0;                           ///< of the LiDAR
+  std::optional<ReadingWarning> rotations;  ///< where LiDAR odometry contradicts the gyro
+  bool complete = false;                    ///< false when the observer ended it early
+  std::optional<Error> broken;  ///< the bag ended in an error; what came before is estimated
+  double recorded_s = 0.0;      ///< of the recording that was read
   double wall_s = 0.0;
   std::vector<EstimatorOutcome> estimators;  ///< their scores are in `scores`
   std::vector<std::string> without_rings;  ///< estimators that need rings, of which there are none

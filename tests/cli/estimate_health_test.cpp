@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -18,6 +19,12 @@ namespace {
 
 using testing::Outcome;
 
+const std::string kWalkWithTurns =
+    "scene: {corridor: {length: 10}}\n"
+    "route: {stand_before: 2.5, points: [{name: a, x: 0, y: 0}, {name: b, x: 2, y: 0.4}, "
+    "{name: c, x: 0, y: 0}]}\n"
+    "lidar: {columns: 400}\n";
+
 class EstimateHealth : public testing::CommandLine {
  protected:
   EstimateHealth() {
@@ -31,18 +38,18 @@ class EstimateHealth : public testing::CommandLine {
     return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
   }
 
-  /// useless.bag: walk.bag, whose specific forces are not numbers, and without a truth.
-  void write_useless_imu() const {
+  /// NAME: walk.bag with changed samples of the IMU, and without a truth.
+  void write_changed(const std::string& name, const std::function<void(ImuSample&)>& change) const {
     auto reader = RecordingReader::open(folder_.path() / "walk.bag", {});
     ASSERT_TRUE(reader) << reader.error().message;
-    auto writer = RecordingWriter::create(folder_.path() / "useless.bag", reader->setup().rig, "");
+    auto writer = RecordingWriter::create(folder_.path() / name, reader->setup().rig, "");
     ASSERT_TRUE(writer) << writer.error().message;
     std::vector<Delivery> deliveries;
     while (reader->advance(kSecond, deliveries).value_or(false)) {
     }
     for (Delivery& each : deliveries) {
       if (auto* imu = std::get_if<ImuSample>(&each.measurement)) {
-        imu->specific_force.setConstant(std::numeric_limits<double>::quiet_NaN());
+        change(*imu);
         ASSERT_TRUE(writer->write_imu(ImuOutput::kMain, each.arrival, *imu));
       } else if (const auto* legs = std::get_if<LegOdometrySample>(&each.measurement)) {
         ASSERT_TRUE(writer->write_legs(each.arrival, *legs));
@@ -80,8 +87,31 @@ TEST_F(EstimateHealth, AnAssumedTransformIsAWarningAtTheEndAndInTheHealth) {
   EXPECT_TRUE(holds(outcome, "page: out/page.html")) << outcome.output;
 }
 
+TEST_F(EstimateHealth, AGyroThatLidarOdometryContradictsIsAWarning) {
+  const Outcome made =
+      aims("simulate " + scenario(kWalkWithTurns) + " --quiet --overwrite --out walk.bag");
+  ASSERT_EQ(made.exit_code, 0) << made.output;
+  const std::pair<double, std::string> gyros[] = {
+      {1.0, ""}, {-1.0, "z of the gyro has the wrong sign"}, {0.5, "z of the gyro measures 0."}};
+  for (const auto& [scale, cause] : gyros) {
+    std::filesystem::remove(folder_.path() / "changed.bag");
+    write_changed("changed.bag", [scale](ImuSample& imu) { imu.angular_velocity *= scale; });
+    const Outcome outcome = aims(
+        "estimate changed.bag --estimators lio --no-pictures --no-page --quiet --overwrite --out "
+        "out");
+    const bool warned = holds(outcome, "warning: LiDAR odometry and gyro contradict each other");
+    EXPECT_EQ(warned, scale != 1.0) << outcome.output;
+    EXPECT_TRUE(holds(outcome, cause)) << outcome.output;
+    const std::string json = read_file(folder_.path() / "out" / "estimate.json").value();
+    EXPECT_NE(json.find(cause), std::string::npos) << "of which the page is made";
+    EXPECT_EQ(holds(outcome, "(LiDAR odometry contradicts the gyro"), scale != 1.0);
+  }
+}
+
 TEST_F(EstimateHealth, AnEstimateWithoutPosesIsNoSuccess) {
-  write_useless_imu();
+  write_changed("useless.bag", [](ImuSample& imu) {
+    imu.specific_force.setConstant(std::numeric_limits<double>::quiet_NaN());
+  });
   const Outcome outcome =
       aims("estimate useless.bag --estimators aims --no-pictures --no-page --quiet --out out");
   EXPECT_EQ(outcome.exit_code, 4) << outcome.output;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/estimate/mount_check.hpp"
+#include "bench/estimate/rotation_check.hpp"
 
 #include <gtest/gtest.h>
 
@@ -69,6 +69,56 @@ TEST(MountCheck, AMirroredAxisIsNoMount) {
   EXPECT_TRUE(check.contradicts);
   EXPECT_NE(check.cause.find("no mount corrects that"), std::string::npos) << check.cause;
   EXPECT_LT(check.R_imu_lidar.angularDistance(kMount), 1e-9) << "stays as given";
+}
+
+TEST(MountCheck, AMountThatIsOffByDegreesIsFoundWithTurnsAboutOneAxis) {
+  for (const bool about_all_axes : {false, true}) {
+    const Eigen::Quaterniond truly = so3_exp(Eigen::Vector3d(0.0, 0.3, 0.0)) * kMount;
+    const MountCheck check =
+        check_mount(rotations(truly.toRotationMatrix(), about_all_axes), kMount);
+    EXPECT_TRUE(check.contradicts);
+    EXPECT_TRUE(check.correctable);
+    EXPECT_NE(check.cause.find("the mount is off by 17 degrees about ["), std::string::npos)
+        << check.cause;
+    EXPECT_LT(check.R_imu_lidar.angularDistance(truly), 0.02);
+    EXPECT_EQ(check.one_axis, !about_all_axes);
+  }
+}
+
+TEST(MountCheck, TheScaleAndTheSignOfEachAxisOfTheGyroAreFound) {
+  const std::pair<Eigen::Vector3d, const char*> gyros[] = {
+      {{1.0, 1.0, 0.5}, "z of the gyro measures 0.50 times"},
+      {{1.0, 1.0, -1.0}, "z of the gyro has the wrong sign"},
+      {{1.0, 0.0, 1.0}, "y of the gyro measures nothing"},
+      {{57.3, 57.3, 57.3}, "x of the gyro is in deg/s"}};
+  for (const auto& [scales, cause] : gyros) {
+    std::vector<RotationPair> pairs = rotations(kMount.toRotationMatrix(), true);
+    for (RotationPair& each : pairs) each.imu = scales.asDiagonal() * each.imu;
+    const MountCheck check = check_mount(pairs, kMount);
+    EXPECT_TRUE(check.contradicts) << cause;
+    EXPECT_FALSE(check.correctable) << cause;
+    EXPECT_NE(check.cause.find(cause), std::string::npos) << check.cause;
+    EXPECT_NEAR(check.axes[2].scale, scales.z(), 0.02 * scales.norm());
+  }
+}
+
+TEST(MountCheck, GravityTellsASignOfTheGyroFromAnImuThatIsUpsideDown) {
+  std::vector<RotationPair> pairs = rotations(Eigen::Matrix3d::Identity(), false);
+  for (RotationPair& each : pairs) each.imu = -each.imu;
+  const Eigen::Quaterniond given = Eigen::Quaterniond::Identity();
+  const MountCheck upright = check_mount(pairs, given, Eigen::Vector3d(0.0, 0.1, 9.8));
+  EXPECT_EQ(upright.cause, "z of the gyro has the wrong sign");
+  const MountCheck overhead = check_mount(pairs, given, Eigen::Vector3d(0.0, 0.1, -9.8));
+  EXPECT_NE(overhead.cause.find("turned by 180 degrees"), std::string::npos) << overhead.cause;
+}
+
+TEST(MountCheck, OnlyAxesAboutWhichTheBodyTurnsCountAsChecked) {
+  const MountCheck check =
+      check_mount(rotations(Eigen::Matrix3d::Identity(), false), Eigen::Quaterniond::Identity());
+  EXPECT_FALSE(check.axes[0].observable());
+  EXPECT_FALSE(check.axes[1].observable());
+  EXPECT_TRUE(check.axes[2].observable());
+  EXPECT_NEAR(check.axes[2].scale, 1.0, 0.02);
 }
 
 TEST(MountCheck, WhatTurnsAboutOneAxisDoNotShowIsNoContradiction) {

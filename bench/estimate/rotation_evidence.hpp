@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bench/estimate/rotation_check.hpp"
+#include "core/measurements.hpp"
+#include "estimator/estimator.hpp"
+#include "recordings/stream/recording_reader.hpp"
+
+namespace aims {
+
+/// Which scans LiDAR odometry runs on.
+enum class WatchedScans {
+  kAll,   ///< of the first three minutes
+  kTurns  ///< 20 s of those during which the gyro turns, of the whole recording
+};
+
+/// Collects what LiDAR odometry (A-LOAM, which uses no IMU) and the gyro of a recording say of the
+/// rotations of the body.
+class RotationEvidence {
+ public:
+  /// Nothing where the recording has no IMU, no LiDAR or no rings.
+  static std::optional<RotationEvidence> create(const RecordingSetup& setup, WatchedScans watched);
+
+  void consume(std::span<const Delivery> deliveries);
+  /// Call once, after the last delivery.
+  void finish();
+
+  /// Rotations over intervals of half a second in which the body turns.
+  std::vector<RotationPair> pairs() const;
+  RateCheck rates() const;
+  /// Sum of the specific force over the first second, IMU axes.
+  const Eigen::Vector3d& first_force() const { return first_force_; }
+
+ private:
+  RotationEvidence(const SensorRig& rig, WatchedScans watched) : rig_(rig), watched_(watched) {}
+  void take(const ImuSample& sample);
+  void take(const Delivery& delivery, const LidarScan& scan);
+  bool is_wanted(const LidarScan& scan);
+  bool is_turning() const;
+  void close();
+  Duration half_scan() const;
+  std::vector<ImuSample> seen_by_scans() const;
+
+  SensorRig rig_;
+  WatchedScans watched_;
+  std::unique_ptr<Estimator> odometry_;  ///< of the present turn
+  std::vector<Trajectory> turns_;        ///< of the LiDAR odometry
+  std::vector<ImuSample> samples_;       ///< of turns, and the last ones
+  std::size_t kept_ = 0;                 ///< samples of turns
+  Eigen::Vector3d first_force_ = Eigen::Vector3d::Zero();
+  std::optional<Time> first_sample_;
+  std::vector<Duration> scan_times_;
+  std::optional<Time> first_scan_;
+  std::optional<Time> last_turning_;
+};
+
+}  // namespace aims
