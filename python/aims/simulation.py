@@ -162,6 +162,9 @@ def run(scenario, estimators=None, seed=None, overrides=None, cache=""):
         record = _merged(record, *_labelled(outcomes, sequence.evaluate(spec)))
     for label, each in own.items():
         record = _merged(record, *_labelled(outcomes, _judged(sequence, label, each)))
+    if own:  # in the order given
+        outcomes = {label: outcomes[label] for label in given}
+        record["estimators"] = {label: record["estimators"][label] for label in given}
     return RunResult(outcomes, record, Truth(sequence.truth))
 
 

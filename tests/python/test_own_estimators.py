@@ -38,6 +38,7 @@ def test_run_and_suite_score_it_like_any_other(own):
     assert set(scores) == {"leg", "mine", "long"}
     # Oracle: the same class in this process, and the length that it is told to err by.
     here = aims.run(own / "walk.yaml", {"mine": Legs, "leg": "leg"}, seed=3, cache=own / "cache")
+    assert list(here.estimators) == ["mine", "leg"], "in the order given"
     for key in ("ate_m", "m_end_m", "coverage", "m_list_percent", "rpe_1m", "success"):
         assert scores["mine"][key] == here.scores["mine"][key], key
         assert scores["leg"][key] == here.scores["leg"][key], key

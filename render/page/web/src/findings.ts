@@ -8,12 +8,16 @@ export interface Finding {
   success: boolean;
   /** Error of the length between reference points, M_list [%]; null: none. */
   percent: number | null;
+  /** The worst of several runs, of which `percent` is the median; null: of one run. */
+  worst: number | null;
   /** With its sign: negative is too short. */
   signed: number | null;
   /** Heading-aligned ATE [m]. */
   ate: number | null;
   /** Where it is lost for good; null if it is not. */
   loss: { from: number; most: number; early: boolean } | null;
+  /** Largest error in the direction that fails where the length does not show it [m]. */
+  aside: { direction: "height" | "sideways"; most: number } | null;
   /** What constrained the weak axis there: median of the equivalent returns; null: not known. */
   returns: number | null;
   /** Healthy all along, as it says itself. */
@@ -32,7 +36,17 @@ const kAlike = 0.1;
 /** More than this is a loss of the length [%]. */
 const kWrong = 1;
 
+/** A success is within this of the distance travelled [%]. */
+const kSuccess = 5;
+
 const percentText = (value: number) => `${formatNumber(value, 2)} %`;
+
+/** The most of their medians and, over several runs, of their worst. */
+function mostText(list: Finding[]): string {
+  const most = percentText(Math.max(...list.map((each) => each.percent!)));
+  const worst = list.map((each) => each.worst).filter(isNumber);
+  return worst.length > 0 ? `${most} in the median and ${percentText(Math.max(...worst))} at worst` : most;
+}
 
 function listed(names: string[]): string {
   if (names.length < 2) return names.join("");
@@ -47,14 +61,22 @@ function place(returns: number | null): string {
   return "";
 }
 
+function asideText({ name, percent, aside }: Finding, unnoticed: string): string {
+  const off = aside!.direction === "height" ? "off in height" : "off sideways";
+  const length = percent === null ? "" : `, its length by ${percentText(percent)}`;
+  return `${name} is up to ${formatNumber(aside!.most, 2)} m ${off}${length}${unnoticed}`;
+}
+
 function lossText(each: Finding, route: Route): string {
   const unnoticed = each.healthy ? ", and calls itself healthy" : "";
   const { loss, percent, signed } = each;
   if (loss && loss.most > 2 * route.length)
     return `${each.name} is lost from ${loss.from.toFixed(0)} s on${place(each.returns)}`;
+  if (!each.success && each.aside && (percent ?? 0) <= kSuccess) return asideText(each, unnoticed);
   if (percent !== null && (!loss || loss.early)) {
     const side = signed === null ? "off" : signed < 0 ? "short" : "too long";
-    return `${each.name} is ${percentText(percent)} ${side} throughout${unnoticed}`;
+    const when = each.worst === null ? "throughout" : "in the median";
+    return `${each.name} is ${percentText(percent)} ${side} ${when}${unnoticed}`;
   }
   if (!loss) return `${each.name} fails`;
   const verb = signed !== null && signed < 0 ? "loses" : "strays by";
@@ -66,6 +88,12 @@ function losers(list: Finding[]): Finding[] {
   const wrong = list.filter((each) => !each.success || (each.percent ?? 0) > kWrong);
   const rank = (each: Finding) => (each.loss && !each.loss.early ? 0 : 1);
   return wrong.sort((a, b) => rank(a) - rank(b) || (b.percent ?? 0) - (a.percent ?? 0));
+}
+
+/** Whether over several runs their worst are as near to each other as their medians. */
+function worstAlike(list: Finding[]): boolean {
+  const worst = list.map((each) => each.worst).filter(isNumber);
+  return Math.max(...worst) <= Math.max(kAlike, kFactor * Math.min(...worst)) || worst.length === 0;
 }
 
 /** Empty without scores. */
@@ -82,19 +110,23 @@ export function finding(list: Finding[], route: Route): string {
   if (good.length === 0) return `No estimator keeps ${what}${loss}.`;
   const limit = Math.max(kAlike, kFactor * good[0]!.percent!);
   const best = good.filter((each) => each.percent! <= limit);
-  const worst = percentText(best[best.length - 1]!.percent!);
   const rest = good.length > best.length
     ? `, ${listed(good.slice(best.length, best.length + 3).map((each) => `${each.name} within ${percentText(each.percent!)}`))}` : "";
-  if (bad.length === 0 && best.length === list.length && list.length > 1)
-    return `${listed(best.map((each) => each.name))} all keep ${what} within ${worst}: this run does not separate them.`;
-  return `${listed(best.map((each) => each.name))} keep${best.length === 1 ? "s" : ""} ${what} within ${worst}${rest}${loss}.`;
+  const names = listed(best.map((each) => each.name));
+  if (bad.length === 0 && best.length === list.length && list.length > 1 && worstAlike(best)) {
+    const runs = best[0]!.worst === null ? "this run does" : "these runs do";
+    return `${names} ${list.length === 2 ? "both" : "all"} keep ${what} within ${mostText(best)}: ${runs} not separate them.`;
+  }
+  return `${names} keep${best.length === 1 ? "s" : ""} ${what} within ${mostText(best)}${rest}${loss}.`;
 }
 
 /** By the ATE, where no lengths were scored. */
 function withoutLengths(list: Finding[]): string {
   const good = list.filter((each) => each.success && isNumber(each.ate)).sort((a, b) => a.ate! - b.ate!);
-  const failed = list.filter((each) => !each.success).map((each) => each.name);
-  const loss = failed.length > 0 ? `; ${listed(failed)} fail${failed.length === 1 ? "s" : ""}` : "";
-  if (good.length === 0) return failed.length > 0 ? "No estimator stays near the truth." : "";
+  const failed = list.filter((each) => !each.success);
+  const texts = failed.slice(0, 2).map((each) => each.aside ? asideText(each, "") : `${each.name} fails`);
+  if (failed.length > 2) texts.push(`${failed.length - 2} more fail`);
+  const loss = texts.length > 0 ? `; ${texts.join("; ")}` : "";
+  if (good.length === 0) return failed.length > 0 ? `No estimator stays near the truth from its start on${loss}.` : "";
   return `${good[0]!.name} stays nearest to the truth, ATE ${formatNumber(good[0]!.ate, 2)} m${loss}.`;
 }

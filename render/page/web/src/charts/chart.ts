@@ -34,6 +34,8 @@ export interface Line {
   unjoined?: boolean;
   /** Line alone, thin; its marks can still be read. */
   plain?: boolean;
+  /** Switched off at first. */
+  hidden?: boolean;
   /** The interval as an area, not as bars. */
   band?: boolean;
 }
@@ -71,9 +73,11 @@ function axesOf(lines: Line[], options: ChartOptions): Axes {
   };
 }
 
-/** How far a line stands aside of its x [px]. */
+/** How far a line stands aside of its x [px]; a fit stays where it is. */
 function asideOf(lines: Line[], line: Line, dodge: number): number {
-  return dodge * (lines.indexOf(line) - (lines.length - 1) / 2);
+  if (line.plain) return 0;
+  const marked = lines.filter((each) => !each.plain);
+  return dodge * (marked.indexOf(line) - (marked.length - 1) / 2);
 }
 
 function intervalOf(line: Line, dx: number, { x, y }: Axes): Markish {
@@ -111,7 +115,7 @@ function guidesOf({ diagonal, verticals = [] }: ChartOptions, { x }: Axes): Mark
   const guide = { stroke: "var(--ink-soft)", strokeDasharray: "3 4" };
   const last = ({ x: at }: { x: number }) => (x.log ? Math.log(at / low) / Math.log(high / low) : (at - low) / (high - low)) > 0.75;
   const named = (end: boolean): Markish => text(inside.filter((each) => last(each) === end), {
-    x: "x", text: "label", frameAnchor: "top", textAnchor: end ? "end" : "start", lineAnchor: "top", dx: end ? -4 : 4, dy: 2, fill: "var(--ink-soft)",
+    x: "x", text: "label", frameAnchor: "top", textAnchor: end ? "end" : "start", lineAnchor: "bottom", dx: end ? 4 : -4, dy: -4, fill: "var(--ink-soft)",
   });
   return [
     diagonal ? lineMark([[0, 0], [1, 1]], { ...guide, strokeWidth: 1 }) : null,
@@ -128,7 +132,8 @@ function drawn(lines: Line[], options: ChartOptions, width: number): Drawing {
   const axes = axesOf(lines, options);
   const dodge = Math.min(options.dodge ?? 0, width / 150);
   const aside = (line: Line) => asideOf(lines, line, dodge);
-  const drawing = plotted({ label: options.label, width, height: options.height ?? 300 }, axes.x, axes.y,
+  const top = options.verticals ? 24 : undefined;  // for their labels
+  const drawing = plotted({ label: options.label, width, height: options.height ?? 300, top }, axes.x, axes.y,
     [...guidesOf(options, axes), ...lines.flatMap((line) => marksOf(line, aside(line), axes))]);
   for (const line of lines) {
     for (const mark of line.marks) {
@@ -158,7 +163,7 @@ function sampleOf(line: Line): SVGElement {
 
 /** The chart with its legend, whose keys switch lines off and on. */
 export function chart(lines: Line[], options: ChartOptions): HTMLElement {
-  const off = new Set<Line>();
+  const off = new Set(lines.filter((line) => line.hidden));
   const on = () => lines.filter((line) => !off.has(line));
   const { element, redraw } = figure({
     kind: "chart", name: `${options.yLabel} over ${options.xLabel}`,
@@ -166,7 +171,7 @@ export function chart(lines: Line[], options: ChartOptions): HTMLElement {
     keys: () => on().map((line) => ({ name: line.name, sample: sampleOf(line) })),
   });
   const keys = lines.map((line) => {
-    const key = h("button", { type: "button", class: "key", "aria-pressed": "true" }, sampleOf(line), line.name);
+    const key = h("button", { type: "button", class: "key", "aria-pressed": String(!off.has(line)) }, sampleOf(line), line.name);
     key.addEventListener("click", () => {
       if (!off.delete(line)) off.add(line);
       key.setAttribute("aria-pressed", String(!off.has(line)));

@@ -62,15 +62,17 @@ interface Size {
   width: number;
   height: number;
   grid?: boolean;
+  /** Above the plot [px]. */
+  top?: number | undefined;
 }
 
 /** Two numeric axes and what is between. */
-export function plotted({ label, width, height, grid = true }: Size, x: Scale, y: Scale, marks: Markish[]): Plotted {
+export function plotted({ label, width, height, grid = true, top = 10 }: Size, x: Scale, y: Scale, marks: Markish[]): Plotted {
   const yTicks = ticksOf(y, Math.floor(height / 45));
   const marginLeft = leftOf(yTicks.labels);
   const xTicks = ticksOf(x, Math.floor(Math.max(60, width - marginLeft - 12) / 70));
   return finished({
-    width, height, marginLeft, marginRight: 12, marginTop: 10, marginBottom: 44, ariaLabel: label,
+    width, height, marginLeft, marginRight: 12, marginTop: top, marginBottom: 44, ariaLabel: label,
     x: { type: x.log ? "log" : "linear", domain: x.ends },
     y: { type: y.log ? "log" : "linear", domain: y.ends },
     marks: [

@@ -28,6 +28,15 @@ export function returnsAfter(data: RunPayload, seconds: number): number | null {
   return values[Math.floor(values.length / 2)]!;
 }
 
+/** The direction that fails, where it is not the one along the way. */
+function asideOf(scores: unknown): Finding["aside"] {
+  const rmse = (axis: string) => Number(at(scores, "drift_m", "rmse", axis) ?? 0);
+  const [along, across, up] = [rmse("longitudinal"), rmse("lateral"), rmse("vertical")];
+  if (up > across && up > along) return { direction: "height", most: Math.max(up, Number(at(scores, "max_error_z_m") ?? 0)) };
+  const most = at(scores, "drift_m", "max", "lateral");
+  return across > along ? { direction: "sideways", most: isNumber(most) ? most : across } : null;
+}
+
 function findingOf(data: RunPayload, path: Path | null, name: string, scores: unknown): Finding {
   const estimator = data.estimators.find((item) => item.name === name);
   const track = path && estimator ? errorTrack(path, estimator, "heading") : null;
@@ -41,9 +50,11 @@ function findingOf(data: RunPayload, path: Path | null, name: string, scores: un
     name,
     success: at(scores, "success") === true,
     percent: numberAt("m_list_percent", "all"),
+    worst: null,
     signed: signedPercent(scores),
     ate: numberAt("ate_yaw_m"),
     loss: loss ? { from: loss.from, most: loss.most, early: loss.distance < kEarly * length } : null,
+    aside: asideOf(scores),
     returns: loss ? returnsAfter(data, loss.from) : null,
     healthy: at(scores, "health", "worst") === "healthy",
   };

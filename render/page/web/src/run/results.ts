@@ -68,16 +68,16 @@ function paperTable(data: RunPayload, list: Row[]): HTMLElement {
   const columns: Column<Row>[] = [
     nameColumn,
     yawColumn,
-    startColumn,
     score("M_list", "%", ["m_list_percent", "all"], "Error of the distances between reference points, eq. (13)"),
     score("M_end", "m", ["m_end_m"], "Error of the displacement from start to end, eq. (14)"),
-    { title: "Success", value: (row) => outcome(data, row) },
+    score("max |z|", "m", ["max_error_z_m"], "Largest height error"),
+    { title: "Success", hint: "Or when it diverged, in seconds after the start", value: (row) => outcome(data, row) },
     ...(list.some((row) => at(row.scores, "health", "worst") !== undefined) ? [healthColumn] : []),
   ];
   return sortableTable(list, columns.filter((column) => column.show || column === nameColumn || list.some((row) => column.value(row) !== null)), {
     caption:
-      "ATE yaw: aligned by heading and translation; ATE start: by the first pose alone. Bold: best of those that " +
-      "succeeded. –: no value.",
+      "ATE yaw: aligned by heading and translation; M_end and max |z|: by the first pose. Bold: best of those that " +
+      "succeeded. –: no value. ✕: when it diverged, after the start.",
     rowName: (row) => row.name,
   });
 }
@@ -98,7 +98,7 @@ function outcome(data: RunPayload, row: Row): string {
   if (row.scores === undefined) return kNone;
   if (data.scenario.robot?.valid === false) return "invalid run";
   const divergedAt = at(row.scores, "diverged_at_s");
-  if (isNumber(divergedAt)) return `✕ at ${formatFixed(divergedAt, 0)} s`;
+  if (isNumber(divergedAt)) return `✕ at ${formatFixed(divergedAt - (data.t0_s ?? 0), 0)} s`;
   return success(row) ? "yes" : "no";
 }
 
@@ -113,9 +113,9 @@ function errorTable(data: RunPayload, list: Row[]): HTMLElement {
         "Error of the straight distance between reference points, eq. (13)",
       ),
     ),
+    startColumn,
     score("ATE SE(3)", "m", ["ate_se3_m"], "RMSE after SE(3) alignment"),
     score("max", "m", ["max_error_m"], "Largest position error, anchored at the start"),
-    score("max z", "m", ["max_error_z_m"], "Largest height error"),
     score("RPE 1 m", "m", ["rpe_1m", "translation_m"], "Relative pose error over 1 m travelled"),
     score(
       "RPE 10 m",

@@ -74,10 +74,11 @@ function expectationSentence(data: RunPayload): Sentence | null {
 function successSentence(data: RunPayload): Sentence | null {
   const scores = Object.entries(own<object>(data.scores, "estimators") ?? {});
   if (scores.length === 0) return null;
+  const start = data.t0_s ?? 0;
   const failed = scores.filter(([, own]) => at(own, "success") !== true);
   const reasons = failed.map(([name, own]) => {
     const divergedAt = at(own, "diverged_at_s");
-    return isNumber(divergedAt) ? `${name} diverged at ${formatFixed(divergedAt, 0)} s` : `${name} failed`;
+    return isNumber(divergedAt) ? `${name} diverged ${formatFixed(divergedAt - start, 0)} s after the start` : `${name} failed`;
   });
   return {
     mood: "plain",
@@ -120,6 +121,16 @@ export function warningBox(data: RunPayload): HTMLElement | null {
     h("strong", {}, "Assumed about this recording, and decisive for the result:"),
     h("ul", {}, ...warnings.map((each) => h("li", {}, each))),
   );
+}
+
+/** What was noticed while scoring: a turned body frame, a clock that differs; null without any. */
+export function hintBox(data: RunPayload): HTMLElement | null {
+  const notes = own<unknown>(data.scores, "notes");
+  const hints = Array.isArray(notes) ? notes.filter((each) => typeof each === "string") : [];
+  if (hints.length === 0) return null;
+  return h("div", { class: "verdict", "data-hints": hints.length, role: "note" },
+    h("p", {}, h("strong", {}, "Noticed while scoring:")),
+    h("ul", {}, ...hints.map((each) => h("li", {}, each))));
 }
 
 /** The sentences in a box that is red for what failed. */

@@ -15,18 +15,18 @@ import { View3D, webGlKind } from "./view3d";
 
 function fallback(data: RunPayload): HTMLElement {
   const pictures = data.pictures ?? [];
-  const best = pictures.find((item) => item.name.includes("trajector")) ?? pictures[0];
-  const text =
-    "This browser offers no WebGL: a picture of the trajectories in place of the 3D view.";
+  const best = pictures.filter((item) => item.name.includes("trajector"));
+  const shown = best.length > 0 ? best : pictures.slice(0, 2);
   return h(
     "div",
     { class: "view-fallback", "data-view": "fallback" },
     h(
       "p",
       { class: "soft" },
-      best ? text : "This browser offers no WebGL, and the folder holds no picture.",
+      shown.length > 0 ? "This browser offers no WebGL: pictures in place of the 3D view."
+        : "This browser offers no WebGL, and the folder holds no picture.",
     ),
-    best ? pictureImage(best) : null,
+    ...shown.map(pictureImage),
   );
 }
 

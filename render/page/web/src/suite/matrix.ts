@@ -208,7 +208,7 @@ function matrix(data: SuitePayload, view: View, open: Cells["open"], changed: ()
       ...estimators.map((each) => cell(cells, each)), anyLink ? links(data, row) : null);
   });
   const what = view.score === kSuccessRate ? title : `${view.statistic} of ${title}${unit ? ` [${unit}]` : ""}`;
-  const caption = `${what}${view.score === kSuccessRate ? "" : " over seeds, with 95 % interval where available"}; ` +
+  const caption = `${what}${view.score === kSuccessRate ? "" : " over seeds, with 95 % interval where available (too narrow below ten seeds)"}; ` +
     `${rows.length} scenario${rows.length === 1 ? "" : "s"}`;
   const table = h("table", { class: "matrix", "aria-label": caption },
     head(data, estimators, view, changed), h("tbody", {}, ...body));

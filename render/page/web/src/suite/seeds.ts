@@ -77,13 +77,14 @@ function boxes(data: SuitePayload, scenario: SuiteScenario, score: string): HTML
 
 function findingOf(scenario: SuiteScenario, name: string): Finding {
   const summary = summaryOf(scenario, name)!;
-  const median = (key: string) => {
-    const value = own<{ median: unknown }>(summary.scores, key)?.median;
+  const number = (key: string, statistic: "median" | "worst") => {
+    const value = own<Record<string, unknown>>(summary.scores, key)?.[statistic];
     return isNumber(value) ? value : null;
   };
   return {
-    name, success: summary.successes > summary.runs / 2, percent: median("m_list_percent.all"), signed: null,
-    ate: median("ate_yaw_m"), loss: null, returns: null, healthy: false,
+    name, success: summary.successes > summary.runs / 2, percent: number("m_list_percent.all", "median"),
+    worst: summary.runs > 1 ? number("m_list_percent.all", "worst") : null, signed: null,
+    ate: number("ate_yaw_m", "median"), loss: null, aside: null, returns: null, healthy: false,
   };
 }
 
@@ -95,7 +96,7 @@ export function seedsVerdict(data: SuitePayload): HTMLElement | null {
   if (!text) return null;
   const runs = only.seeds.length - (only.invalid?.length ?? 0);
   return h("div", { class: "verdict", "data-verdict": "plain", role: "status" },
-    h("p", {}, h("strong", {}, text), runs > 1 ? ` Medians over ${runs} seeds.` : ""));
+    h("p", {}, h("strong", {}, text), runs > 1 ? ` Over ${runs} seeds.` : ""));
 }
 
 /** Table and box plots of the chosen scenario; null without runs. */

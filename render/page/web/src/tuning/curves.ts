@@ -11,13 +11,17 @@ function marksOf(points: SlicePoints): Mark[] {
   return Array.from(points.x, (x, i) => ({ x, y: points.value[i]!, low: points.low[i]!, high: points.high[i]! }));
 }
 
-/** The objective along a parameter: markers where it was measured, a thin line where a fit is supported. */
+/**
+ * The objective along a parameter: markers where it was measured, a thin line where a fit is supported. Beside one over
+ * all scenarios, those of a scenario are off at first: intervals at the same values cover each other.
+ */
 function sliceLines(slices: Slice[]): Line[] {
   return slices.flatMap((slice, index) => {
     const name = slice.family || "all scenarios";
     const lines: Line[] = [];
-    if (slice.fit) lines.push({ name: `${name}, fit`, index, marks: marksOf(slice.fit), plain: true, band: true });
-    if (slice.measured) lines.push({ name: `${name}, measured`, index, marks: marksOf(slice.measured), unjoined: true });
+    const hidden = slice.family !== "" && slices.some((each) => !each.family);
+    if (slice.fit) lines.push({ name: `${name}, fit`, index, marks: marksOf(slice.fit), plain: true, band: true, hidden });
+    if (slice.measured) lines.push({ name: `${name}, measured`, index, marks: marksOf(slice.measured), unjoined: true, hidden });
     return lines;
   });
 }
@@ -72,6 +76,7 @@ export function curves(
       ? chart(lines, {
           label: `${yLabel} over ${parameter.name}`, xLabel: axisLabel(parameter), yLabel, height: 270,
           xLog: parameter.log, yLog: allPositive(lines), xEnds: parameterEnds(parameter), verticals,
+          dodge: shown === "slice" ? 9 : 0,
         })
       : h("p", { class: "nothing" }, shown !== "slice" ? "No point has this score."
           : "No curve: fewer than two points differ in this parameter alone, and no fit is supported. Choose “every point” instead.");

@@ -42,7 +42,7 @@ function bestSection(data: TuningPayload, view: View): HTMLElement {
 
 function sensitivitySection(view: View): HTMLElement | null {
   const analysis = analysisOf(view);
-  return analysis ? section("sensitivity", "Sensitivity", sensitivity(view.estimator, analysis)) : null;
+  return analysis && view.estimator.parameters.length > 1 ? section("sensitivity", "Sensitivity", sensitivity(view.estimator, analysis)) : null;
 }
 
 function curveSection(data: TuningPayload, view: View, redraw: () => void): HTMLElement {
@@ -58,7 +58,7 @@ function curveSection(data: TuningPayload, view: View, redraw: () => void): HTML
     })), curves(data, view.estimator, analysis, view.score, shown),
     h("p", { class: "soft" }, shown === "cloud" ? "Median over the seeds of a scenario; ✕: a run diverged."
       : shown === "points" ? "All other parameters differ, too."
-      : "Markers: measured, with 95 % intervals over seeds. Thin lines: fits with the interval of their error, where cross-validation supports them."));
+      : "Markers: measured, with 95 % intervals over seeds. Thin lines: fits with the interval of their error, where cross-validation supports them. A press on a name shows or hides it."));
 }
 
 function mapSection(view: View, redraw: () => void): HTMLElement | null {
@@ -138,7 +138,8 @@ export function renderTuning(root: HTMLElement, data: TuningPayload): void {
       }),
     ]);
     body.replaceChildren(
-      h("div", { class: "pair" }, part(() => bestSection(data, view)), part(() => sensitivitySection(view))),
+      h("div", view.estimator.parameters.length > 1 ? { class: "pair" } : {},
+        part(() => bestSection(data, view)), part(() => sensitivitySection(view))),
       part((redraw) => curveSection(data, view, redraw)), part((redraw) => mapSection(view, redraw)),
       part((redraw) => pointSection(data, view, redraw)));
   };
