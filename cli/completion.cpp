@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace aims {
@@ -13,7 +14,14 @@ namespace {
 /// Values that a script asks the program for, and a word for options without a value.
 constexpr const char* kScenarios = "@scenarios";
 constexpr const char* kEstimators = "@estimators";
+constexpr const char* kKeys = "@keys";
 constexpr const char* kFlag = "@flag";
+
+/// Commands whose --set takes keys of a recording, not of a scenario.
+bool is_of_recordings(const std::string& path) {
+  constexpr std::array kNames = {"estimate", "score", "info", "check", "benchmark", "calibrate"};
+  return std::ranges::find(kNames, path) != kNames.end();
+}
 
 std::vector<std::string> names_of(const CLI::Option& option) {
   std::vector<std::string> names;
@@ -35,6 +43,7 @@ std::string values_of(const CLI::Option& option) {
   }
   const std::string name = option.get_single_name();
   if (name == "scenario" || name == "scenarios" || name == "source") return kScenarios;
+  if (name == "set") return kKeys;
   if (name == "estimators" || name == "estimator" || name == "baselines") return kEstimators;
   return "";
 }
@@ -52,7 +61,8 @@ std::string branch(const std::string& patterns, const std::string& words) {
 
 void add_option(const CLI::Option& option, const std::string& path, std::string& words,
                 std::string& options, Cases& cases) {
-  const std::string values = values_of(option);
+  std::string values = values_of(option);
+  if (values == kKeys && is_of_recordings(path)) values.clear();
   const std::vector<std::string> names = names_of(option);
   if (names.empty()) {
     if (!values.empty()) words += (words.empty() ? "" : " ") + values;
@@ -132,6 +142,8 @@ constexpr const char* kBashFunction = R"sh(_aims() {
   word=""
   [[ $cur == *,* ]] && word="${cur%,*},"
   COMPREPLY=($(compgen -P "$word" -W "$names" -- "${cur##*,}"))
+  [[ $kind == "@keys" ]] && compopt -o nospace 2>/dev/null
+  return 0
 }
 
 complete -o default -F _aims aims
@@ -160,7 +172,9 @@ constexpr const char* kZshFunction = R"sh(_aims() {
     names="$(_aims_names "$program" "$(_aims_words "$at_path")")"
   fi
   compset -P '*,'
-  [[ -n $names ]] && compadd -- ${=names}
+  local -a no_space
+  [[ $kind == "@keys" ]] && no_space=(-S "")
+  [[ -n $names ]] && compadd $no_space -- ${=names}
   [[ -z $names || $names == *$'\n'* ]] && _files
   return 0
 }

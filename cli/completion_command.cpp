@@ -3,6 +3,7 @@
 #include <string>
 
 #include "bench/scenario/catalogue.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "cli/commands.hpp"
 #include "cli/completion.hpp"
 #include "cli/options.hpp"
@@ -25,11 +26,18 @@ int print_estimators() {
   return kOk;
 }
 
+/// What --set takes: "lidar.range_sigma=".
+int print_keys() {
+  Scenario scenario;
+  for (const Parameter& each : fields_of(scenario).parameters()) print_out("{}=\n", each.key);
+  return kOk;
+}
+
 }  // namespace
 
 void declare_completion(Command command, const fs::path& scenarios) {
   auto what = std::make_shared<std::string>();
-  command.choice("what", *what, {"bash", "zsh", "scenarios", "estimators"},
+  command.choice("what", *what, {"bash", "zsh", "scenarios", "estimators", "keys"},
                  "The script of a shell, or the names that it asks for", Presence::kRequired);
   command.footer(
       "Installed packages have the scripts in place. Elsewhere:\n"
@@ -38,6 +46,7 @@ void declare_completion(Command command, const fs::path& scenarios) {
   command.action([what, command, scenarios] {
     if (*what == "scenarios") return print_scenarios(scenarios);
     if (*what == "estimators") return print_estimators();
+    if (*what == "keys") return print_keys();
     const CLI::App& program = command.program();
     print_out("{}", *what == "bash" ? bash_completion(program) : zsh_completion(program));
     return static_cast<int>(kOk);

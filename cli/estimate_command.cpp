@@ -61,8 +61,9 @@ void print_results(const EstimateResult& result, const fs::path& folder,
                    const std::vector<std::string>& warnings) {
   for (const std::string& note : result.setup.notes) print_out("note: {}\n", note);
   for (const auto& [event, count] : result.counts) print_out("note: {}: {}\n", event, count);
-  print_out("{}, {:.1f} s\n{}\n", result.bag.string(), result.recorded_s,
-            to_text(estimate_table(result)));
+  print_out("{}, {:.1f} s\n", result.bag.string(), result.recorded_s);
+  print_scores_table(estimate_table(result), result.scores ? "scores.json" : "estimate.json");
+  print_out("\n");
   for (const EstimatorOutcome& each : result.estimators) {
     if (each.totals.poses == 0) {
       for (const auto& [event, count] : each.result.counts) {

@@ -72,10 +72,7 @@ void add_settings(Command& command, SharedOptions& options, const std::string& o
 }
 
 void add_param(Command& command, SharedOptions& options, const std::string& forms) {
-  command.repeatable("--param", options.param,
-                     fmt::format("Parameter to vary, {},\n"
-                                 "a key of the estimator or of the scenario",
-                                 forms));
+  command.repeatable("--param", options.param, fmt::format("Parameter to vary, {}", forms));
 }
 
 void add_out(Command& command, SharedOptions& options, const std::string& absent) {

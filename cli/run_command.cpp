@@ -67,8 +67,9 @@ void draw(const std::vector<fs::path>& folders, const SharedOptions& shared) {
 void print_run(const Suite& suite, const fs::path& out, const SharedOptions& shared) {
   const SuiteCase& each = suite.cases.front();
   if (!each.runs.empty()) {
-    print_out("{}, seed {}\n{}{}\n", each.scenario.name, seeds_text(each),
-              to_text(score_table(each.runs)), score_legend(each.runs, each.scenario.scoring));
+    print_out("{}, seed {}\n", each.scenario.name, seeds_text(each));
+    print_scores_table(score_table(each.runs), "scores.md");
+    print_out("{}\n", score_legend(each.runs, each.scenario.scoring));
     print_health(each);
   }
   print_ring_notes(suite);

@@ -35,8 +35,9 @@ struct ScoreArguments {
 };
 
 void print_scores(const TrajectoryScores& scores, const fs::path& folder) {
-  print_out("{}\n{}\n{}", to_text(trajectory_source_table(scores)),
-            to_text(trajectory_score_table(scores)), score_legend(scores));
+  print_out("{}\n", to_text(trajectory_source_table(scores)));
+  print_scores_table(trajectory_score_table(scores), "scores.md");
+  print_out("{}", score_legend(scores));
   for (const std::string& note : scores.notes) print_out("note: {}\n", note);
   print_out("results: {}\n", (folder / "").string());
   for (const auto& picture : pictures_in(folder)) print_out("  {}\n", picture.string());
@@ -105,7 +106,7 @@ void add_inputs(Command& command, ScoreArguments& arguments) {
   ScoringRequest& request = arguments.request;
   command.option("--truth", request.truth, "Ground-truth trajectory, or positions of a point");
   command.repeatable("--estimate", request.estimates, "Estimated trajectory", Presence::kRequired);
-  command.repeatable("--name", request.names, "Name of each estimate, in their order");
+  command.list("--name", request.names, "Name of each estimate, in their order, e.g. mine,theirs");
   command.option("--times", request.times, "Stamps of KITTI poses: a file with one per line [s]");
   command.option("--time-offset", request.time_offset_s, {-4e9, 4e9},
                  "Added to the stamps of the estimates [s] (0)");

@@ -39,7 +39,9 @@ void print_scenarios(const Suite& suite) {
   const SuiteCase* last = nullptr;
   for (const SuiteCase& each : suite.cases) {
     if (each.runs.empty()) continue;
-    print_matrix(each.scenario.name, score_table(each.runs));
+    print_out("{}\n", each.scenario.name);
+    print_scores_table(score_table(each.runs), "suite.md");
+    print_out("\n");
     last = &each;
   }
   if (last != nullptr) print_out("{}\n", score_legend(last->runs, last->scenario.scoring));

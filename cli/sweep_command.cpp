@@ -178,7 +178,9 @@ void declare_sweep(Command command, const fs::path& scenarios) {
   arguments->shared.folder = scenarios.string();
   command.argument("plan", arguments->plan, "YAML file of these options; the command line wins",
                    Presence::kOptional);
-  add_plan_options(command, arguments->shared, "KEY=LOW:HIGH:COUNT or\nKEY=log(LOW,HIGH,COUNT)");
+  add_plan_options(
+      command, arguments->shared,
+      "KEY=LOW:HIGH:COUNT or\nKEY=log(LOW,HIGH,COUNT),\na key of the estimator or of the scenario");
   add_design(command, *arguments);
   add_continued_out(command, arguments->shared, "out/sweep");
   command.option("--shard", arguments->shard, "I/N: part I of N of the jobs (1/1)");

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/terminal.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <array>
 #include <cerrno>
 #include <sstream>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "core/text.hpp"
 
@@ -12,7 +19,32 @@ namespace aims {
 
 void write_terminal(std::FILE* stream, std::string_view text) {
   const std::string shown = terminal_text(text);
+  if (stream == stderr) std::fflush(stdout);  // in the order of printing where both are one
   std::fwrite(shown.data(), 1, shown.size(), stream);
+}
+
+namespace {
+
+/// Columns of scores that a narrow terminal goes without, the first one first.
+constexpr std::array kLeast = {"ATE SE(3)", "ATE Sim(3)",  "path error deg", "RPE deg",
+                               "CPU",       "x real time", "heading",        "tracked",
+                               "RPE",       "path error",  "M_end",          "poses",
+                               "ATE start", "max |z|",     "M_list(",        "within 1 %"};
+
+/// Characters in a line of standard output.
+std::size_t output_width() {
+  constexpr std::size_t kWithoutTerminal = 120;
+  winsize size{};
+  const bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return known ? size.ws_col : kWithoutTerminal;
+}
+
+}  // namespace
+
+void print_scores_table(const TextTable& table, std::string_view file) {
+  std::vector<std::string> left_out;
+  print_out("{}", to_text(narrowed(table, output_width(), kLeast, left_out)));
+  if (!left_out.empty()) print_out("in {} alone: {}\n", file, fmt::join(left_out, ", "));
 }
 
 void print_error(std::string_view message) { write_terminal(stderr, line_text(message) + "\n"); }

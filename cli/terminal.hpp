@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/files/table.hpp"
 
 namespace aims {
 
@@ -21,6 +22,10 @@ template <class... Arguments>
 void print_out(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
   write_terminal(stdout, fmt::format(format, std::forward<Arguments>(arguments)...));
 }
+
+/// Prints a table of scores, without its less telling columns where the terminal, or 120 characters
+/// of what is none, is narrower; says which are only in `file`.
+void print_scores_table(const TextTable& table, std::string_view file);
 
 /// An error or a note on standard error, in one line.
 void print_error(std::string_view message);

@@ -78,18 +78,28 @@ void print_applied(const TuneResult& result, const std::string& file) {
   }
 }
 
-Result<Answer> finish(const TuneArguments& arguments, const TuneResult& result) {
+/// The verdict, what the objective is, and the figures of both kinds of sequences.
+void print_outcome(const TuneResult& result) {
+  print_out("tuned values: {}\n", held_out_verdict(result));
+  if (!result.earlier_looks.empty()) {
+    print_out("warning: {}\n", looks_text(result.earlier_looks.size()));
+  }
+  if (defaults_all_diverged(result.tables.front())) {
+    print_out("warning: on the sequences tuned on, {}\n", kNoGain);
+  }
+  const bool front = result.tables.size() > 1;
+  print_out("{}", to_text(front ? front_table(result) : outcome_table(result)));
+  for (const Objective& each : result.task.plan.objectives) {
+    print_out("objective: {}\n", text_of(each));
+  }
+}
+
+Result<Answer> finish(const TuneArguments& arguments, TuneResult& result) {
   const fs::path out = arguments.shared.out;
+  if (auto noted = note_look(result, out); !noted) return tl::unexpected(noted.error());
   if (auto written = write_tuning(result, out); !written) return tl::unexpected(written.error());
   if (!result.complete) print_out("interrupted: the same command continues\n");
-  const bool front = result.tables.size() > 1;
-  if (!result.chosen.empty()) {
-    print_out("tuned values: {}\n", held_out_verdict(result));
-    if (defaults_all_diverged(result.tables.front())) {
-      print_out("warning: on the sequences tuned on, {}\n", kNoGain);
-    }
-    print_out("{}", to_text(front ? front_table(result) : outcome_table(result)));
-  }
+  if (!result.chosen.empty()) print_outcome(result);
   const auto left_out = left_out_lines(result);
   for (const std::string& line : left_out) print_out("INVALID RUNS: {}\n", line);
   for (const std::string& line : failed_lines(result)) print_out("FAILED RUNS: {}\n", line);
@@ -114,7 +124,7 @@ Result<Answer> tune_command(const TuneArguments& arguments) {
   if (!task) return failure(arguments.plan + ": " + task.error().message);
   const auto lock = claim(arguments.shared.out, *plan);
   if (!lock) return tl::unexpected(lock.error());
-  const auto result = work(arguments.shared, *task);
+  auto result = work(arguments.shared, *task);
   if (!result) return tl::unexpected(result.error());
   return finish(arguments, *result);
 }
@@ -126,7 +136,8 @@ void declare_tune(Command command, const fs::path& scenarios) {
   arguments->shared.folder = scenarios.string();
   command.argument("plan", arguments->plan,
                    "YAML file: parameters, sequences, objectives, optimizer");
-  add_plan_options(command, arguments->shared, "KEY=LOW:HIGH or\nKEY=log(LOW,HIGH)");
+  add_plan_options(command, arguments->shared,
+                   "KEY=LOW:HIGH or\nKEY=log(LOW,HIGH), a key of the estimator");
   add_continued_out(command, arguments->shared, "out/tune");
   command.option("--apply", arguments->apply,
                  "Also write the tuned values to this file, for --set @FILE");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/estimate/python_classes.hpp"
 
+#include <fmt/format.h>
+
 #include "core/files/yaml_config.hpp"
 #include "estimator/estimator_spec.hpp"
 
@@ -16,7 +18,8 @@ Result<RunChoice> choose_run(const std::filesystem::path& file,
   };
   RunChoice choice{read({}), read(overrides)};
   if (auto added = add_python_estimators(choice.all, configs); !added) {
-    return failure("run: " + added.error().message);
+    const char* from = choice.all == choice.of_file ? "run" : "--estimators";
+    return failure(fmt::format("{}: {}", from, added.error().message));
   }
   // Of one that does not run, the file may hold settings; without the class they are unknown keys.
   static_cast<void>(add_python_estimators(choice.of_file, configs));

@@ -13,9 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The smallest change that would have been better or worse.
+/// The smallest change that would have been better or worse; none of a change that is.
 std::optional<double> detectable(const ScoreChange& change) {
-  if (!change.test.detectable) return std::nullopt;
+  const bool detected =
+      change.verdict == ChangeVerdict::kBetter || change.verdict == ChangeVerdict::kWorse;
+  if (detected || !change.test.detectable) return std::nullopt;
   return std::max(*change.test.detectable, change.floor);
 }
 
@@ -31,14 +33,6 @@ std::optional<std::size_t> lost(const ScoreChange& change) {
 
 std::optional<std::size_t> won(const ScoreChange& change) {
   return change.success ? std::optional(change.success->only_second) : std::nullopt;
-}
-
-/// Of a change that was not detected.
-std::string detectable_text(const ScoreChange& change) {
-  const bool detected =
-      change.verdict == ChangeVerdict::kBetter || change.verdict == ChangeVerdict::kWorse;
-  const auto smallest = detectable(change);
-  return smallest && !detected ? fmt::format("{:.4f}", *smallest) : "-";
 }
 
 std::string change_text(const ScoreChange& change) {
@@ -66,8 +60,7 @@ const TableColumns<ScoreChange>& change_columns() {
       {"p", "p", [](const Change& c) { return c.test.p; }, "{:.3f}"},
       {"lost", "", lost},
       {"won", "", won},
-      {"detectable", "", detectable},
-      {"", "detectable", detectable_text},
+      {"detectable", "detectable", detectable, "{:.4f}"},
       {"floor", "", &Change::floor},
       {"verdict", "verdict", [](const Change& c) { return name_of(c.verdict); }},
       {"false_alarm", "", &Change::false_alarm}};
@@ -143,11 +136,9 @@ std::string rule_text(const Comparison& comparison) {
       "before, after: means over the seeds. change: mean of the paired differences, with the 95 %\n"
       "interval of the sign-flip test; it excludes zero exactly when p <= 0.05. better, worse: it\n"
       "excludes zero, and the change exceeds 5 % of before and 0.01 m (M_list: 0.02 %, heading:\n"
-      "1 mrad); small: the change does not. detectable: the smallest change that this scatter "
-      "would\n"
-      "have shown. success (within 5 % of the distance), success_1_percent: fraction of the runs, "
-      "how\n"
-      "many are lost (-) and won (+), and p of McNemar's exact test.\n";
+      "1 mrad); small: the change does not. detectable: where nothing was detected, the smallest\n"
+      "change that would have been. success (within 5 % of the distance), success_1_percent:\n"
+      "fraction of the runs, how many are lost (-) and won (+), and p of McNemar's exact test.\n";
   std::set<std::size_t> few;
   for (const ScoreChange& each : comparison.changes) {
     if (each.verdict == ChangeVerdict::kTooFew) few.insert(each.pairs);

@@ -12,6 +12,8 @@
 
 #include "bench/metrics/paired_test.hpp"
 #include "bench/metrics/proportion.hpp"
+#include "bench/metrics/statistics.hpp"
+#include "bench/scoring/score_list.hpp"
 
 namespace aims {
 namespace {
@@ -51,7 +53,42 @@ std::vector<std::size_t> sorted_cases(const ResponseTable& table) {
   return order;
 }
 
+/// "ATE yaw" of "ate_yaw_m"; a key that has no title stands for itself.
+std::string title_of(const std::string& key) {
+  for (const Score& each : headline_scores()) {
+    if (each.key == key) return std::string(each.title);
+  }
+  return key;
+}
+
+/// The score as measured and the diverged runs on these cases.
+void measure(const ResponseTable& table, std::size_t point, std::span<const std::size_t> cases,
+             PairedGain& gain) {
+  std::vector<double> before;
+  std::vector<double> after;
+  for (const std::size_t i : cases) {
+    const RunScore& first = table.default_runs[i];
+    const RunScore& second = table.runs[point][i];
+    if (first.value) before.push_back(*first.value);
+    if (second.value) after.push_back(*second.value);
+    gain.diverged_before += first.diverged;
+    gain.diverged += second.diverged;
+  }
+  gain.median_before = median(before);
+  gain.median_after = median(after);
+}
+
 }  // namespace
+
+std::string measured_text(const PairedGain& gain) {
+  std::string text;
+  if (gain.median_before && gain.median_after) {
+    text = fmt::format("median {} {:.3g} -> {:.3g} {}, ", gain.score, *gain.median_before,
+                       *gain.median_after, gain.unit);
+  }
+  return text + fmt::format("diverged runs {} -> {} of {}", gain.diverged_before, gain.diverged,
+                            gain.sequences);
+}
 
 bool is_significant(const PairedGain& gain) {
   const Interval& interval = gain.interval;
@@ -109,8 +146,9 @@ PairedGain paired_gain(const ResponseTable& table, const Objective& objective, s
   result.sequences = cases.size();
   result.all_diverged = all_diverged(table);
   result.defaults_diverged = defaults_all_diverged(table);
-  result.diverged = static_cast<std::size_t>(
-      std::ranges::count_if(cases, [&](std::size_t i) { return table.runs[point][i].diverged; }));
+  result.score = title_of(objective.score);
+  result.unit = unit_of_score(objective.score);
+  measure(table, point, cases, result);
   if (result.defaults_diverged) return result;
   result.gain = gain(cases);
   if (cases.size() < kFewestPairs) return result;
@@ -155,9 +193,11 @@ std::string verdict_text(const PairedGain& held_out) {
   if (!held_out.gain) return "not validated: the objective has no gain on the held-out sequences";
   const std::string change = change_text(*held_out.gain);
   if (held_out.sequences == 1) {
-    return fmt::format("nothing can be concluded from one held-out sequence ({} on it)", change);
+    return fmt::format("nothing can be concluded from one held-out sequence ({}; objective {})",
+                       measured_text(held_out), change);
   }
-  const std::string on = fmt::format("{} on {} held-out sequences", change, held_out.sequences);
+  const std::string on = fmt::format("{}; objective {} on {} held-out sequences",
+                                     measured_text(held_out), change, held_out.sequences);
   if (held_out.sequences < kFewestPairs) {
     const char* what = verdict_of(held_out) == Verdict::kDoNotUse ? "do not use them" : "undecided";
     return fmt::format("{}: {}, too few for an interval ({} are needed)", what, on, kFewestPairs);

@@ -30,8 +30,9 @@ struct TuneResult {
   std::vector<int> generation;  ///< of each point, 0 = the first population
   std::vector<std::size_t> chosen;      ///< the best point; of several objectives the front
   std::vector<ResponseTable> held_out;  ///< of the chosen points, in order; empty: nothing held out
-  bool complete = true;                 ///< false when it was interrupted
-  bool converged = false;               ///< ended before its last generation
+  std::vector<std::string> earlier_looks;  ///< at held-out sequences in the same folder
+  bool complete = true;                    ///< false when it was interrupted
+  bool converged = false;                  ///< ended before its last generation
 };
 
 /// Runs the default setting, optimizes the parameters, and evaluates the result on the held-out

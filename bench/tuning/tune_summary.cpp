@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "bench/metrics/paired_test.hpp"
 #include "bench/run/code_version.hpp"
@@ -15,6 +16,8 @@
 
 namespace aims {
 namespace {
+
+constexpr const char* kLooks = "held_out.txt";
 
 /// The best objective so far after each generation, a few to a line.
 std::string history_markdown(const TuneResult& result) {
@@ -31,6 +34,12 @@ std::string history_markdown(const TuneResult& result) {
     if (last) history.push_back(figure_text(least));
   }
   return fmt::format("\nBest objective after each generation: {}.\n", fmt::join(history, ", "));
+}
+
+/// What was seen of held-out sequences before, which makes the p of the last look too small.
+std::string looks_markdown(const TuneResult& result) {
+  return fmt::format("**Warning: {}:**\n\n- {}\n\n", looks_text(result.earlier_looks.size()),
+                     fmt::join(result.earlier_looks, "\n- "));
 }
 
 std::string settings_text(const TuneResult& result) {
@@ -64,6 +73,7 @@ std::string markdown_of(const TuneResult& result) {
   if (!result.complete) text += "**Interrupted: only finished points are included.**\n\n";
   if (!result.chosen.empty()) {
     text += fmt::format("**Tuned values: {}.**\n\n", held_out_verdict(result));
+    if (!result.earlier_looks.empty()) text += looks_markdown(result);
     if (defaults_all_diverged(result.tables.front())) {
       text += fmt::format("**On the sequences tuned on, {}.**\n\n", kNoGain);
     }
@@ -111,17 +121,17 @@ std::vector<std::string> outcome_row(const std::string& name, const ResponseTabl
                                      const Objective& objective, std::size_t point) {
   const PairedGain gain = paired_gain(table, objective, point);
   const auto all = cases_of(table, "");
-  const bool bounded = gain.interval.low && gain.interval.high;
   return {name,
           fmt::format("{}", gain.sequences),
+          figure_text(gain.median_before),
+          figure_text(gain.median_after),
+          fmt::format("{}", gain.diverged_before),
+          fmt::format("{}", gain.diverged),
           figure_text(objective_at(table, objective, kDefaults, all)),
           figure_text(objective_at(table, objective, point, all)),
           gain.defaults_diverged ? "no meaning: all defaults diverged"
           : gain.gain            ? change_text(*gain.gain)
-                                 : "-",
-          bounded ? fmt::format("{} to {}", change_text(*gain.interval.low),
-                                change_text(*gain.interval.high))
-                  : "-"};
+                                 : "-"};
 }
 
 /// What the held-out sequences say of that point of the front, per objective.
@@ -247,9 +257,38 @@ std::string front_verdict(const TuneResult& result) {
       better, points, on);
 }
 
+std::string looks_text(std::size_t earlier) {
+  return fmt::format(
+      "held-out results were looked at {} time{} before; sequences that are added after a look "
+      "make "
+      "p too small. Confirm the values on sequences that were never looked at",
+      earlier, earlier == 1 ? "" : "s");
+}
+
+std::vector<std::string> looks_in(const std::filesystem::path& folder) {
+  std::vector<std::string> looks;
+  std::ifstream lines(folder / kLooks);
+  for (std::string line; std::getline(lines, line);) looks.push_back(line);
+  return looks;
+}
+
+Result<void> note_look(TuneResult& result, const std::filesystem::path& folder) {
+  std::vector<std::string>& looks = result.earlier_looks = looks_in(folder);
+  if (result.held_out.empty()) return {};
+  const std::string look =
+      fmt::format("{}: {}", sequences_text(result.task.held_out), held_out_verdict(result));
+  if (!looks.empty() && looks.back() == look) looks.pop_back();
+  std::string text;
+  for (const std::string& each : looks) text += each + "\n";
+  return write_file_atomically(folder / kLooks, text + look + "\n");
+}
+
 TextTable outcome_table(const TuneResult& result) {
   const Objective& objective = result.task.plan.objectives.front();
-  TextTable table{{"objective", "sequences", "defaults", "tuned", "change", "95 % over sequences"},
+  const PairedGain of = paired_gain(result.tables.front(), objective, result.chosen.front());
+  const std::string score = of.unit.empty() ? of.score : of.score + " " + of.unit;
+  TextTable table{{"", "sequences", "median " + score + ", defaults", "tuned", "diverged, defaults",
+                   "tuned", "objective, defaults", "tuned", "change"},
                   {}};
   if (!result.held_out.empty()) {
     table.rows.push_back(outcome_row("held out", result.held_out.front(), objective, 0));

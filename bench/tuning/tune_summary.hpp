@@ -37,13 +37,23 @@ std::string front_verdict(const TuneResult& result);
 /// chosen points.
 Json tune_json(const TuneResult& result);
 
-/// A row per part of the sequences, held out first: objective of the defaults and of the chosen
-/// point, and the change. Expects a chosen point.
+/// A row per part of the sequences, held out first: median score, diverged runs and objective of
+/// the defaults and of the chosen point. Expects a chosen point.
 TextTable outcome_table(const TuneResult& result);
 
 /// A row per point of the front: its values and objectives, tuned and held out, and what the
 /// held-out sequences say of it.
 TextTable front_table(const TuneResult& result);
+
+/// Reads which held-out results were seen in `folder` before into `earlier_looks` and adds those of
+/// this tuning, a line of held_out.txt for each.
+Result<void> note_look(TuneResult& result, const std::filesystem::path& folder);
+
+/// The held-out results that were seen in a folder, the last one too.
+std::vector<std::string> looks_in(const std::filesystem::path& folder);
+
+/// What so many earlier looks mean for the verdict.
+std::string looks_text(std::size_t earlier);
 
 /// Writes tune.md, tune.csv (every point) and tuned.yaml (of one objective) into `folder`.
 Result<void> write_tuning(const TuneResult& result, const std::filesystem::path& folder);

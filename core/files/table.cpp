@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <string_view>
 
 #include "core/text.hpp"
@@ -25,6 +26,11 @@ std::vector<std::size_t> column_widths(const TextTable& table) {
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
   }
   return widths;
+}
+
+/// Characters of a line.
+std::size_t total_width(const std::vector<std::size_t>& widths) {
+  return std::accumulate(widths.begin(), widths.end(), 2 * (widths.size() - 1));
 }
 
 std::string line(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths) {
@@ -75,14 +81,27 @@ std::string markdown_row(const std::vector<std::string>& cells) {
 
 }  // namespace
 
+TextTable narrowed(TextTable table, std::size_t width, std::span<const char* const> least,
+                   std::vector<std::string>& left_out) {
+  for (const char* title : least) {
+    for (std::size_t i = table.header.size(); i-- > 1;) {
+      if (total_width(column_widths(table)) <= width) return table;
+      if (!table.header[i].starts_with(title)) continue;
+      const auto at = static_cast<std::ptrdiff_t>(i);
+      left_out.push_back(table.header[i]);
+      table.header.erase(table.header.begin() + at);
+      for (auto& row : table.rows) row.erase(row.begin() + at);
+    }
+  }
+  return table;
+}
+
 std::string to_text(const TextTable& given) {
   if (given.header.empty()) return "";
   TextTable table = {shown(given.header), {}};
   for (const auto& row : given.rows) table.rows.push_back(shown(row));
   const std::vector<std::size_t> widths = column_widths(table);
-  std::size_t total = 2 * (widths.size() - 1);
-  for (const std::size_t width : widths) total += width;
-  std::string text = line(table.header, widths) + std::string(total, '-') + "\n";
+  std::string text = line(table.header, widths) + std::string(total_width(widths), '-') + "\n";
   for (const auto& row : table.rows) text += line(row, widths);
   return text;
 }

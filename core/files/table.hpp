@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,12 @@ struct TextTable {
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
 };
+
+/// The table without columns while its text is wider than `width`: those whose titles begin with a
+/// text of `least`, the first of them first, and never the first column. Their titles are added to
+/// `left_out`.
+TextTable narrowed(TextTable table, std::size_t width, std::span<const char* const> least,
+                   std::vector<std::string>& left_out);
 
 /// The table with aligned columns and a rule under the header, a line per row.
 std::string to_text(const TextTable& table);

@@ -35,6 +35,16 @@ const std::vector<PagePicture> kPictures = {
     {"robot_turn", "The robot at its farthest point from the start"},
     {"trajectories", "Trajectories over the plan; height and error over the distance travelled"},
     {"errors", "Position, height and heading error over time"}};
+/// Those and, of a recording without truth, the maps that stand in for the 3D view.
+std::vector<PagePicture> pictures_of(const RunFolder& run) {
+  std::vector<PagePicture> pictures = kPictures;
+  if (run.scores.is_object()) return pictures;
+  for (const EstimatorFiles& each : run.estimators) {
+    pictures.push_back({each.name + "-map-top", "Map of " + each.name + " from above"});
+    pictures.push_back({each.name + "-map-side", "Map of " + each.name + " from the side"});
+  }
+  return pictures;
+}
 /// Pictures beyond this size are left out [bytes].
 constexpr std::uintmax_t kLargestPicture = 512 * 1024;
 
@@ -111,6 +121,15 @@ Json diverged_at_json(const RunFolder& run, const std::string& name, double star
   return diverged_at.is_number() ? Json(diverged_at.get<double>() - start) : Json();
 }
 
+/// Poses and lengths of an estimate of a recording; null of other runs.
+Json summary_json(const RunFolder& run, const std::string& name) {
+  const Json own = member(member(run.estimate, "estimators"), name);
+  if (!own.is_object()) return {};
+  return {{"poses", member(own, "poses")},
+          {"path_m", member(own, "path_m")},
+          {"displacement_m", member(own, "displacement_m")}};
+}
+
 /// How healthy the estimator called itself; null in folders without it.
 Json health_json(const RunFolder& run, const std::string& name) {
   const Json& record = run.estimate.is_object() ? run.estimate : run.scores;
@@ -141,6 +160,7 @@ Result<Json> estimators_json(const RunFolder& run, const Scene* scene, double st
         {{"name", each.name},
          {"diverged_at", diverged_at_json(run, each.name, start)},
          {"health", health_json(run, each.name)},
+         {"summary", summary_json(run, each.name)},
          {"colour_index", styles[list.size()]},
          {"series", std::move(*series)},
          {"map",
@@ -203,7 +223,7 @@ Result<PageData> run_page(const fs::path& folder) {
     return tl::unexpected(added.error());
   }
   Json notes = run->notes;
-  auto pictures = pictures_json(run->path, kPictures, kLargestPicture, notes);
+  auto pictures = pictures_json(run->path, pictures_of(*run), kLargestPicture, notes);
   if (!pictures) return tl::unexpected(pictures.error());
   page.json["notes"] = std::move(notes);
   page.json["pictures"] = std::move(*pictures);

@@ -88,9 +88,11 @@ double page_start(const RunFolder& run) {
       first = std::min(first.value_or(trajectory.front().stamp), trajectory.front().stamp);
   };
   take(run.truth);
-  for (const EstimatorFiles& each : run.estimators) take(each.trajectory);
+  if (!first) {
+    for (const EstimatorFiles& each : run.estimators) take(each.trajectory);
+  }
   if (!first || std::abs(*first) < kLongestRun) return 0.0;
-  return std::floor(to_seconds(*first));
+  return to_seconds(*first);
 }
 
 Json truth_json(const RunFolder& run, double start, PageData& page) {

@@ -8,8 +8,8 @@
 namespace aims {
 
 /// Stamp [s] that a run's page counts from: 0 for a clock that starts with the run; for one that
-/// counts from an epoch the full second before the first pose, since 32 bits could not separate
-/// scans.
+/// counts from an epoch the truth's first pose, else the first of the estimates', since 32 bits
+/// could not separate scans.
 double page_start(const RunFolder& run);
 
 /// Truth at about 10 Hz: t, p, q (x y z w); null when there is none.

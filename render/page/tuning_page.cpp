@@ -17,6 +17,7 @@
 #include "bench/studies/suite_summary.hpp"
 #include "bench/tuning/range_key.hpp"
 #include "bench/tuning/sweep_summary.hpp"
+#include "bench/tuning/tune_summary.hpp"
 #include "render/page/links.hpp"
 #include "render/page/series.hpp"
 #include "render/page/tuning_analyses.hpp"
@@ -209,6 +210,12 @@ Json counts_json(const MergedSweep& units) {
   return json;
 }
 
+/// That held-out results were seen before the last ones; null: they were not.
+Json looked_json(const fs::path& folder) {
+  const std::size_t looks = looks_in(folder).size();
+  return looks > 1 ? Json("Warning: " + looks_text(looks - 1) + ".") : Json();
+}
+
 Result<Json> estimators_json(const TuningSource& source, const VariedParameters& varied,
                              const Collected& all, const std::vector<std::string>& scores,
                              PageData& page) {
@@ -250,6 +257,7 @@ Result<PageData> tuning_page(const fs::path& folder, const PageOptions& /*option
                {"source", source->tuned ? "tune" : "sweep"},
                {"plan", source->plan},
                {"jobs", counts_json(source->units)},
+               {"looked", looked_json(folder)},
                {"held_out_jobs", counts_json(source->held_out)},
                {"scores", scores},
                {"sequences", sequences_json(all.sequences)},

@@ -46,7 +46,15 @@ TEST_F(Completion, OfOptionsAndTheirValues) {
   EXPECT_EQ(in_bash("aims study compare --fail"), Words({"--fail-on-worse"}));
   EXPECT_EQ(in_bash("aims simulate --compression \"\""), Words({"none", "lz4", "bz2", "zstd"}));
   EXPECT_EQ(in_bash("aims simulate --compression = b"), Words({"bz2"}));
-  EXPECT_TRUE(in_bash("aims run --set \"\"").empty()) << "any text";
+  EXPECT_TRUE(in_bash("aims run --out \"\"").empty()) << "any text";
+}
+
+TEST_F(Completion, OfKeys) {
+  EXPECT_EQ(in_bash("aims run --set lidar.range_mi"), Words({"lidar.range_min="}));
+  EXPECT_TRUE(in_bash("aims suite --set lidar.ra").contains("lidar.range_max="));
+  EXPECT_TRUE(
+      in_bash("aims run --set estimators.lio.").contains("estimators.lio.lidar.range_max="));
+  EXPECT_TRUE(in_bash("aims estimate --set lidar.ra").empty()) << "no key of a recording";
 }
 
 TEST_F(Completion, OfNamesOfScenariosAndEstimators) {

@@ -56,6 +56,8 @@ TEST_F(Tunes, WriteValuesThatARunTakes) {
   const Outcome tuned = tune("--out out --apply tuned.yaml");
   ASSERT_EQ(tuned.exit_code, 0) << tuned.output;
   EXPECT_TRUE(holds(tuned, "held out")) << tuned.output;
+  EXPECT_TRUE(holds(tuned, "diverged runs ")) << "what a user understands leads" << tuned.output;
+  EXPECT_TRUE(holds(tuned, "\nobjective: ")) << tuned.output;
   EXPECT_TRUE(holds(tuned, "nothing can be concluded from one held-out sequence")) << tuned.output;
   EXPECT_FALSE(holds(tuned, "to use them: --set")) << tuned.output;
   EXPECT_LT(tuned.output.find("tuned values: "), tuned.output.find("tuned on")) << "it leads";
@@ -76,6 +78,14 @@ TEST_F(Tunes, WriteValuesThatARunTakes) {
   EXPECT_EQ(again.exit_code, 0) << again.output;
   EXPECT_EQ(read_file(folder_.path() / "out" / "tuned.yaml").value(), values)
       << "nothing was done twice, and it says the same";
+  EXPECT_FALSE(holds(again, "looked at")) << "the same sequences are one look";
+
+  write("plan.yaml", with(kPlan, "held_out: {seeds: 2}", "held_out: {seeds: 2-3}"));
+  const Outcome more = tune("--out out");
+  EXPECT_TRUE(holds(more, "warning: held-out results were looked at 1 time before")) << more.output;
+  const std::string report = read_file(folder_.path() / "out" / "tune.md").value();
+  EXPECT_NE(report.find("- 1 sequences: my; seeds 2: nothing can be concluded"), std::string::npos)
+      << report;
 }
 
 TEST_F(Tunes, RefuseBadPlansWithOneLine) {

@@ -136,6 +136,8 @@ export interface Estimator {
   name: string;
   diverged_at: Maybe;
   health?: Health | null;
+  /** Of a recording: what came out, and how far it goes [m]. */
+  summary?: { poses?: Maybe; path_m?: Maybe; displacement_m?: Maybe } | null;
   /** Index of its style in the palette. */
   colour_index: number;
   series: EstimatorSeries | null;

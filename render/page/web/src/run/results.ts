@@ -227,6 +227,27 @@ function healthTable(data: RunPayload): HTMLElement | null {
   );
 }
 
+/** How far each estimate of a recording goes; null of a simulated run. */
+function summaryTable(data: RunPayload): HTMLElement | null {
+  const list = data.estimators.filter((item) => item.summary);
+  if (list.length === 0) return null;
+  const metres = (title: string, key: string, hint: string): Column<Estimator> => ({
+    title, unit: "m", hint,
+    value: (item) => numberAt(item.summary, key),
+    show: (item) => formatFixed(Number(at(item.summary, key)), 2),
+  });
+  return sortableTable(
+    list,
+    [
+      { title: "Estimator", value: (item) => item.name },
+      { title: "poses", value: (item) => numberAt(item.summary, "poses"), show: (item) => formatFixed(Number(at(item.summary, "poses")), 0) },
+      metres("path", "path_m", "Length of the estimated path"),
+      metres("displacement", "displacement_m", "Straight distance from the first pose to the last"),
+    ],
+    { caption: "Estimated paths", rowName: (item) => item.name },
+  );
+}
+
 function expectationTable(data: RunPayload): HTMLElement | null {
   const all = expectationsOf(data);
   if (all.length === 0) return null;
@@ -268,7 +289,10 @@ function truthLine(data: RunPayload): HTMLElement | null {
 export function leadSection(data: RunPayload): HTMLElement | null {
   const list = data.scores ? rows(data) : [];
   const health = healthTable(data);
-  if (list.length === 0) return health ? section("results", "Results", health) : null;
+  if (list.length === 0) {
+    const tables = [summaryTable(data), health].filter((table) => table !== null);
+    return tables.length > 0 ? section("results", "Results", h("div", { class: "tables" }, ...tables)) : null;
+  }
   return section(
     "results",
     "Results",

@@ -119,6 +119,8 @@ export interface TuningPayload extends PagePayload {
   plan: string;
   jobs: Record<string, number>;
   held_out_jobs: Record<string, number>;
+  /** That held-out results were seen before the last ones. */
+  looked?: string | null;
   scores: string[];
   sequences: Sequence[];
   estimators: TunedEstimator[];

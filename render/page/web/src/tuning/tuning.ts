@@ -37,7 +37,8 @@ function bestSection(data: TuningPayload, view: View): HTMLElement {
     return section("best", "Best values", h("p", { class: "nothing" },
       `Best values and sensitivity exist for ${view.estimator.analyses.map((each) => each.score).join(", ")}; for ${view.score} only the points are shown.`));
   }
-  return section("best", "Best values", outcome(analysis, data.source === "tune"), bestTable(view.estimator, analysis));
+  return section("best", "Best values", outcome(analysis, data.source === "tune"),
+    data.looked ? h("p", { class: "verdict undecided", "data-looked": "" }, data.looked) : null, bestTable(view.estimator, analysis));
 }
 
 function sensitivitySection(view: View): HTMLElement | null {
