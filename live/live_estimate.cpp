@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -20,6 +21,17 @@ constexpr Duration kMapPeriod = 5 * kSecond;  ///< of the published map
 // Of what a crash leaves behind [s].
 constexpr double kSummaryPeriod = 10.0;
 constexpr double kMapFilePeriod = 60.0;
+constexpr double kOverload = 5.0;  ///< after the last message dropped [s]
+
+/// Whether both say the same, but for its figures.
+bool alike(const HealthRow& a, const HealthRow& b) {
+  const auto words = [](const HealthRow& row) {
+    std::string text = fmt::format("{}", fmt::join(row.reasons, "; "));
+    std::erase_if(text, [](unsigned char each) { return std::isdigit(each) != 0; });
+    return text;
+  };
+  return a.state == b.state && words(a) == words(b);
+}
 
 void print_counts(const std::map<std::string, int>& counts) {
   for (const auto& [event, count] : counts) print_line(fmt::format("note: {}: {}", event, count));
@@ -39,6 +51,7 @@ LiveEstimate::LiveEstimate(Transport& transport, Publications& publications,
       start_(std::move(start)),
       moved_(start_.T_odom_start.translation.norm() > 0.0 ||
              start_.T_odom_start.rotation.vec().norm() > 0.0),
+      dropped_(transport.dropped()),
       read_warnings_(reader.setup().warnings.size()) {}
 
 Result<void> LiveEstimate::run() {
@@ -132,9 +145,22 @@ void LiveEstimate::warn_of_reading() {
   }
 }
 
-/// Adds what the reading knows to the reasons; publishes.
+/// Messages that were dropped leave gaps, which the estimator takes for silent sensors: names the
+/// cause instead.
+void LiveEstimate::name_overload(HealthRow& row) {
+  const std::size_t dropped = transport_.dropped();
+  if (std::exchange(dropped_, dropped) != dropped) since_dropped_ = Stopwatch();
+  if (!since_dropped_ || since_dropped_->seconds() > kOverload) return;
+  std::erase_if(row.reasons, [](const std::string& each) { return each.starts_with("no "); });
+  row.reasons.insert(row.reasons.begin(),
+                     fmt::format("the node is too slow: {} messages dropped", dropped));
+  if (row.state == HealthState::kHealthy) row.state = HealthState::kDegraded;
+}
+
+/// Adds what node and reading know to the reasons; publishes.
 void LiveEstimate::publish_health(std::vector<HealthRow>& rows) {
   for (HealthRow& row : rows) {
+    name_overload(row);
     std::vector<std::string> reasons = start_.clocks->differing();
     for (const ReadingWarning& each : start_.warnings) reasons.push_back(each.reason);
     if (row.state != HealthState::kStarting && !reasons.empty()) {
@@ -145,7 +171,7 @@ void LiveEstimate::publish_health(std::vector<HealthRow>& rows) {
   }
 }
 
-/// Prints too, where the state or its reasons change.
+/// Prints too, where the state or its reasons change, not their figures alone.
 void LiveEstimate::publish(const HealthRow& row) {
   const auto [scans, samples] = timing_.rates();
   std::vector<std::pair<std::string, std::string>> figures = {
@@ -160,7 +186,7 @@ void LiveEstimate::publish(const HealthRow& row) {
   for (const auto& [what, count] : reader_.counts())
     figures.emplace_back(what, fmt::format("{}", count));
   publications_.health(row, std::move(figures));
-  if (printed_ && row.state == printed_->state && row.reasons == printed_->reasons) return;
+  if (printed_ && alike(row, *printed_)) return;
   print_line(fmt::format("health at {:.1f} s: {}{}{}", to_seconds(row.stamp), name_of(row.state),
                          row.reasons.empty() ? "" : ": ", fmt::join(row.reasons, "; ")));
   printed_ = row;

@@ -60,6 +60,7 @@ class LiveEstimate {
   void log(std::span<const StampedPose> poses, std::span<const HealthRow> health);
   void warn_of_motion();
   void warn_of_reading();
+  void name_overload(HealthRow& row);
   void publish_health(std::vector<HealthRow>& rows);
   void publish(const HealthRow& row);
   void publish_points(Time stamp);
@@ -79,6 +80,8 @@ class LiveEstimate {
   std::optional<HealthRow> printed_;
   std::string warning_ = "none";  ///< of the network, the last one
   Time next_map_ = 0;
+  std::size_t dropped_ = 0;  ///< messages, at the last row
+  std::optional<Stopwatch> since_dropped_;
   std::size_t read_warnings_ = 0;  ///< of the reader, told
   std::size_t taken_poses_ = 0;
   std::size_t taken_health_ = 0;

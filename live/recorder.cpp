@@ -20,20 +20,12 @@ Result<Recorder> Recorder::create(const std::filesystem::path& file, bool cdr) {
   auto sink = create_recording(file, wanted);
   if (!sink) return tl::unexpected(sink.error());
   recorder.sink_ = std::move(*sink);
+  recorder.converter_.emplace("live topics", *recorder.sink_);
   return recorder;
 }
 
 void Recorder::add(const BagMessage& message) {
-  if (!sink_ || !state_) return;
-  const BagConnection& connection = *message.connection;
-  const auto [place, added] = ids_.try_emplace(&connection, 0);
-  if (added) {
-    place->second = sink_->add_connection(
-        connection.topic,
-        {connection.type, connection.md5, connection.definition, connection.format},
-        connection.latching);
-  }
-  state_ = sink_->write(place->second, message.record_time, message.data);
+  if (converter_ && state_) state_ = converter_->write(message);
 }
 
 Result<void> Recorder::close() {

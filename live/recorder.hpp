@@ -2,12 +2,12 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <memory>
+#include <optional>
 
 #include "core/error.hpp"
 #include "recordings/bag/message_sink.hpp"
-#include "recordings/bag/message_source.hpp"
+#include "recordings/source/conversion.hpp"
 
 namespace aims {
 
@@ -30,7 +30,7 @@ class Recorder {
 
  private:
   std::unique_ptr<MessageSink> sink_;
-  std::map<const BagConnection*, std::uint32_t> ids_;
+  std::optional<MessageConverter> converter_;
   Result<void> state_;
 };
 

@@ -47,9 +47,7 @@ int run(const PlayArguments& arguments) {
   std::vector<std::filesystem::path> with(arguments.files.begin() + 1, arguments.files.end());
   const auto recording = open_recording(arguments.files.front(), {.with = std::move(with)});
   if (!recording) return report_bad_input(kProgram, recording.error().message);
-  DdsOptions dds = arguments.dds;
-  dds.in_step = arguments.playback.rate > 1.0;  // else it sends as sensors do, which never wait
-  const auto transport = DdsTransport::connect(dds);
+  const auto transport = DdsTransport::connect(arguments.dds);
   if (!transport) return report_bad_input(kProgram, transport.error().message);
   const auto outcome = play(**recording, **transport, arguments.playback);
   for (const std::string& problem : (*transport)->take_problems()) {

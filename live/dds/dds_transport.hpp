@@ -18,7 +18,6 @@ struct DdsOptions {
   /// `aims_play`. Else this machine's time of reception.
   bool source_time = false;
   bool keep_all = false;       ///< publishing waits rather than that a subscriber misses anything
-  bool in_step = false;        ///< publishing waits for a subscriber that is 500 kB behind
   double max_blocking = 0.02;  ///< how long publishing waits for slow subscribers [s]
 };
 

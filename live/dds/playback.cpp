@@ -24,7 +24,9 @@ constexpr auto kPatience = std::chrono::milliseconds(50);  ///< between looks at
 constexpr double kDelay = 1.0;                          ///< for subscribers to find the topics [s]
 constexpr double kReportPeriod = 5.0;                   ///< [s]
 constexpr Time kEndOfTime = (Time{1} << 31) * kSecond;  ///< of DDS, in 2038: it drops what is later
-constexpr double kLastWait = 5.0;  ///< for subscribers to take the last messages [s]
+constexpr double kLastWait = 5.0;        ///< for subscribers to take the last messages [s]
+constexpr std::size_t kAhead = 500'000;  ///< of the slowest subscriber [bytes]
+constexpr double kAnswer = 1.0;          ///< for a subscriber to acknowledge them [s]
 
 /// Sends each message when it is due.
 class PacedSink final : public MessageSink {
@@ -53,6 +55,7 @@ class PacedSink final : public MessageSink {
     } else if (!transport_.publish_at(publisher, record_time, data.data(), data.size())) {
       ++outcome_.blocked;
     }
+    if (rate_ > 1.0) keep_in_step(data.size());
     return {};
   }
 
@@ -82,12 +85,24 @@ class PacedSink final : public MessageSink {
     }
   }
 
+  /// Faster than sensors send, it waits until all subscribers have what was sent. One that does not
+  /// answer, as after a kill -9, is waited for once: DDS gives it up after 10 s, meanwhile it keeps
+  /// the messages.
+  void keep_in_step(std::size_t size) {
+    ahead_ += size;
+    if (ahead_ < kAhead) return;
+    ahead_ = 0;
+    answered_ = transport_.wait_for_subscribers(answered_ ? kAnswer : 0.0) == 0;
+  }
+
   DdsTransport& transport_;
   double rate_;
   PlaybackOutcome& outcome_;
   std::map<std::pair<std::string, std::string>, std::uint32_t> publishers_;
   std::optional<Time> first_;
   Clock::time_point start_;
+  std::size_t ahead_ = 0;  ///< sent since all subscribers had everything [bytes]
+  bool answered_ = true;   ///< by all subscribers, when last asked
 };
 
 bool wanted(const std::string& topic, const std::vector<std::string>& topics) {

@@ -314,7 +314,7 @@ void RecordingSurvey::decide_stamps(RecordingPlan& plan) {
   if (std::abs(latency) < kMaxClockDifference) return;
   plan.arrival_shift = -latency;
   notes_.push_back(
-      fmt::format("the recorder's clock is {:.3f} s {} the sensors': arrivals are shifted by it",
+      fmt::format("arrivals are {:.3f} s {} the sensors' stamps: they are shifted by it",
                   std::abs(to_seconds(latency)), latency > 0 ? "ahead of" : "behind"));
 }
 

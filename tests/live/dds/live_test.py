@@ -4,6 +4,7 @@
 CYCLONEDDS_URI keeps it on this machine. FASTDDS_PEER may be empty."""
 
 import glob
+import itertools
 import json
 import os
 import re
@@ -16,21 +17,20 @@ import sys
 import time
 import unittest
 import urllib.request
+from concurrent.futures import ThreadPoolExecutor
 from xml.etree import ElementTree
 
 AIMS, GARBAGE, PEER = None, None, None
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 SCENARIO = os.path.join(os.path.dirname(FOLDER), "walk.yaml")  # standing, then three metres
 TOPICS = ["--set", "recording.topics.lidar=/lidar/points"]
-LAST_WAIT_S = 60
-next_domain = 100 + os.getpid() % 100
+PATIENCE_S = 60  # with a loaded machine
+domains = itertools.count(os.getpid())
 
 
 def own_domain():
     """No two tests share a domain, and no test that of a robot."""
-    global next_domain
-    next_domain = 100 + (next_domain - 99) % 100
-    return str(next_domain)
+    return str(100 + next(domains) % 100)
 
 
 def content(path):
@@ -64,9 +64,10 @@ def estimate(recording, folder, *options):
 
 
 class Live:
-    """`aims live` on a recording that `aims play` plays."""
+    """`aims live` on a recording that `aims play` plays. Faster than at its own pace, messages arrive at their times of
+    sending. Of clouds that waited, none is dropped: the recording is shorter than their patience."""
 
-    def __init__(self, recording, name, live=(), play=(), play_domain=None, limit=()):
+    def __init__(self, recording, name, live=(), play=(), pace=8, max_wait=20, play_domain=None, limit=()):
         for old in (name, name + ".mcap", *glob.glob(name + "-[0-9].mcap")):
             shutil.rmtree(old, ignore_errors=True)
             if os.path.exists(old):
@@ -74,8 +75,10 @@ class Live:
         self.name, self.domain = name, own_domain()
         with open(name + ".log", "w", encoding="utf-8") as log:
             self.live = subprocess.Popen([*limit, AIMS, "live", "--domain", self.domain, "--out", name, "--record",
-                                          name + ".mcap", "--settle", "2", *TOPICS, *live], stdout=log, stderr=log)
-        self.play_command = [AIMS, "play", recording, "--domain", play_domain or self.domain, *play]
+                                          name + ".mcap", "--settle", "2", "--max_wait", str(max_wait), *TOPICS,
+                                          *(["--source_time"] if pace > 1 else []), *live], stdout=log, stderr=log)
+        self.play_command = [AIMS, "play", recording, "--domain", play_domain or self.domain, "--rate", str(pace),
+                             *play]
         self.start_play("--wait")
 
     def start_play(self, *wait):
@@ -87,27 +90,44 @@ class Live:
             if process.poll() is None:
                 process.kill()
 
-    def wait_for(self, what, condition, seconds=40):
-        end = time.monotonic() + seconds
+    def wait_for(self, what, condition):
+        end = time.monotonic() + PATIENCE_S
         while not condition():
             if time.monotonic() > end:
                 self.kill()
-                raise AssertionError(f"no {what} in {seconds} s\n{self.log()}")
-            time.sleep(0.1)
+                raise AssertionError(f"no {what} in {PATIENCE_S} s\n{self.log()}")
+            time.sleep(0.05)
+
+    def wait_for_poses(self, count):
+        """Until there are so many more; how long that took [s]."""
+        begin, target = time.monotonic(), count + (len(places(self.poses())) if self.written() else 0)
+        self.wait_for("poses", lambda: self.written() and len(places(self.poses())) >= target)
+        return time.monotonic() - begin
+
+    def wait_for_walk(self):
+        """Until it has gone half a metre."""
+        self.wait_for("walk", lambda: self.written() and distance(places(self.poses())[-1], (0, 0, 0)) > 0.5)
+
+    def stop_play(self, ending=signal.SIGKILL):
+        self.play.send_signal(ending)
+        self.said = self.play.communicate(timeout=PATIENCE_S)[0]
+
+    def silent(self):
+        """Whether it has ended, or read all that was sent and said so."""
+        states = [line for line in self.log().splitlines() if line.startswith("health at")]
+        return self.live.poll() is not None or bool(states) and "no messages" in states[-1]
 
     def tell(self, command):
         run(AIMS, "live", "--domain", self.domain, "--tell", command)
 
     def finish(self, ending=signal.SIGTERM):
-        """Waits for the player, then for the last pose; ends the estimate by that signal. Its exit code."""
+        """Waits for the player, then for silence; ends the estimate by that signal. Its exit code."""
         try:
-            self.said = self.play.communicate(timeout=40)[0]
-            size, end = -1, time.monotonic() + LAST_WAIT_S
-            while self.live.poll() is None and size < self.written() and time.monotonic() < end:
-                size = self.written()
-                time.sleep(1.0)
+            if self.play.returncode is None:
+                self.said = self.play.communicate(timeout=PATIENCE_S)[0]
+            self.wait_for("silence", self.silent)
             self.live.send_signal(ending)
-            return self.live.wait(30)
+            return self.live.wait(PATIENCE_S)
         finally:
             self.kill()
 
@@ -134,13 +154,9 @@ def altered(name, change):
     return name
 
 
-# A loaded machine may keep clouds waiting.
-PATIENT = ["--max_wait", "20"]
-
-
 class LiveEstimate(unittest.TestCase):
     @classmethod
-    def setUpClass(cls):
+    def prepare(cls):
         for recording in ("walk.mcap", "walk.bag"):
             run(AIMS, "simulate", SCENARIO, "-o", recording, "--quiet", "--overwrite")
         cls.offline = estimate("walk.mcap", "offline")
@@ -177,7 +193,7 @@ class LiveEstimate(unittest.TestCase):
         return live
 
     def test_live_poses_are_those_of_the_recording_byte_for_byte(self):
-        live = self.assert_same(Live("walk.mcap", "source", ["--source_time", *PATIENT], ["--rate", "2"]))
+        live = self.assert_same(Live("walk.mcap", "source"))
         self.assertEqual(live.poses(), self.offline)
         # By time of arrival, its rows are stamped by the shift of clocks, of which the record shows more.
         ours, theirs = (content(os.path.join(folder, "aims_d.health.csv")).splitlines(keepends=True)
@@ -196,7 +212,7 @@ class LiveEstimate(unittest.TestCase):
             file.write(text[:mount] + text[mount:].replace("used: false", "used: true", 1)
                        .replace("values: [0, 0, 0]", "values: [0.004, 0, 0.004]", 1))
         calibration = ["--calibration", "robot.yaml"]
-        live = Live("walk.mcap", "calibrated", ["--source-time", *PATIENT, *calibration], ["--rate", "2"])
+        live = Live("walk.mcap", "calibrated", calibration)
         self.assertEqual(live.finish(), 0, live.log())
         expected = estimate("walk.mcap", "calibrated-offline", *calibration)
         self.assertTrue(live.poses() == expected, live.log())
@@ -207,45 +223,50 @@ class LiveEstimate(unittest.TestCase):
         self.assertIn("--calibration", wrong.stderr)
 
     def test_by_time_of_arrival_the_record_gives_the_same_bytes(self):
-        self.assert_same(Live("walk.bag", "arrival", PATIENT))
+        self.assert_same(Live("walk.bag", "arrival", pace=1))
 
     def test_overloaded_it_drops_the_oldest_clouds_and_counts_them(self):
-        live = Live("walk.mcap", "overload", ["--source_time"])
-        live.wait_for("walk", lambda: live.written() and distance(places(live.poses())[-1], (0, 0, 0)) > 0.5)
+        live = Live("walk.mcap", "overload", ["--source_time"], pace=1, max_wait=0.05)
+        live.wait_for_walk()
         live.live.send_signal(signal.SIGSTOP)  # as if another program took the processor
-        time.sleep(1.5)
+        time.sleep(0.6)  # of topics that wait, the order of arrival is lost: a second would be a jump of clocks
         live.live.send_signal(signal.SIGCONT)
+        live.wait_for("cause", lambda: "too slow" in live.log())
+        live.stop_play(signal.SIGTERM)
         self.assertEqual(live.finish(), 0, live.log())
         dropped = re.search(r"note: (\d+) messages dropped, since the node was too slow", live.log())
         self.assertIsNotNone(dropped, live.log())
+        self.assertRegex(live.log(), r"health .*: degraded: the node is too slow: \d+ messages dropped")
+        self.assertNotIn("no LiDAR scans", live.log(), "which is the effect")
         print(f"overload: {dropped[1]} messages dropped")
         self.assertEqual(live.poses(), estimate("overload.mcap", "overload-again"), "without the dropped ones")
 
     def test_a_driver_that_restarts_with_another_clock_starts_an_estimate_where_the_last_one_ended(self):
-        live = Live("walk.mcap", "restart", PATIENT)
-        live.wait_for("walk", lambda: live.written() and distance(places(live.poses())[-1], (0, 0, 0)) > 0.5)
-        live.play.kill()
-        live.play.communicate()
+        live = Live("walk.mcap", "restart", pace=1)
+        live.wait_for_walk()
+        live.stop_play()
         live.start_play()
-        live.wait_for("second estimate", lambda: live.written("part-2"))
+        live.wait_for("second walk", lambda: live.written("part-2") and distance(
+            places(live.poses("part-2"))[-1], places(live.poses("part-2"))[0]) > 1.0)
+        live.stop_play(signal.SIGTERM)
         self.assertEqual(live.finish(), 0, live.log())
         self.assertRegex(live.log(), "anew at the last pose: the clocks of the sensors jumped: .*/imu/data by -")
         first, second = places(live.poses()), places(live.poses("part-2"))
-        self.assertLess(distance(first[-1], second[0]), 0.01, "it goes on where it was")
+        self.assertLess(distance(first[-1], second[0]), 0.2, "it goes on where it was")
         recorded = places(estimate("restart-2.mcap", "restart-again"))
         self.assertEqual(len(second), len(recorded))
-        self.assertAlmostEqual(distance(second[0], second[-1]), distance(recorded[0], recorded[-1]), 5)
+        self.assertAlmostEqual(distance(second[0], second[-1]), distance(recorded[0], recorded[-1]), delta=0.01)
         self.assertGreater(distance(second[0], second[-1]), 1.0, "and walks")
 
     def test_fixed_transforms_that_are_sent_once_last_when_the_estimate_starts_anew(self):
         once = altered("once.bag", lambda topic, message, stamp: (message, stamp))
-        live = Live(once, "statics", PATIENT)
-        live.wait_for("walk", lambda: live.written() and distance(places(live.poses())[-1], (0, 0, 0)) > 0.5)
-        live.play.kill()
-        live.play.communicate()
+        live = Live(once, "statics", pace=3)
+        live.wait_for_walk()
+        live.stop_play()
         live.play_command += ["--topics", "/imu/data,/lidar/points,/joint_states,/foot_contacts,/leg_odometry"]
         live.start_play()
         live.wait_for("second estimate", lambda: live.written("part-2"))
+        live.stop_play(signal.SIGTERM)
         self.assertEqual(live.finish(), 0, live.log())
         self.assertNotIn("NO TRANSFORM", live.log())
         self.assertNotIn(b"unknown", content("statics/part-2/aims_d.health.csv"))
@@ -259,7 +280,7 @@ class LiveEstimate(unittest.TestCase):
                 message.header.frame_id = "rear"
             return message, stamp
 
-        live = Live(altered("rear.bag", rename), "rear", PATIENT)
+        live = Live(altered("rear.bag", rename), "rear")
         self.assertEqual(live.finish(), 0, live.log())
         self.assertRegex(live.log(), "warning: the clouds are in frame 'rear' after .* no transform between them")
         rows = content("rear/aims_d.health.csv").splitlines()
@@ -270,37 +291,40 @@ class LiveEstimate(unittest.TestCase):
         self.assertEqual(summary("rear")["warnings"], summary("rear-again")["warnings"])
 
     def test_a_killed_subscriber_does_not_keep_the_others_waiting(self):
-        live = Live("walk.mcap", "other", PATIENT)
-        with open("killed.log", "w", encoding="utf-8") as log:
-            other = subprocess.Popen([AIMS, "live", "--domain", live.domain, "--node", "killed", *TOPICS], stdout=log,
-                                     stderr=log)
-        try:
-            live.wait_for("the other estimate", lambda: b"publishes" in content("killed.log"))
-        finally:
+        for pace in (1, 2):
+            with self.subTest(pace=pace):
+                self.kill_a_subscriber(pace)
+
+    def kill_a_subscriber(self, pace):
+        """DDS notices it after 10 s. In step with its subscribers, the player waits a second once."""
+        live = Live("walk.mcap", f"other-{pace}", pace=pace)
+        with subprocess.Popen([GARBAGE, live.domain, "listen", "/lidar/points", "sensor_msgs/PointCloud2"],
+                              stdout=subprocess.PIPE) as other:
+            other.stdout.readline()
+            live.wait_for_poses(25)  # what was gathered is estimated
+            usual = live.wait_for_poses(10)
             other.kill()
-            other.wait()
-        before = len(places(live.poses()))
+        took = live.wait_for_poses(10)
+        print(f"{live.name}: a second of poses took {usual:.1f} s, {took:.1f} s after the kill")
+        self.assertLess(took, usual + 7.0)
+        live.stop_play(signal.SIGTERM)
         self.assertEqual(live.finish(), 0, live.log())
-        self.assertGreater(len(places(live.poses())), before + 20, "it was killed midway")
         self.assertNotIn("not sent", live.said)
-        last = float(live.poses().splitlines()[-1].split()[0])
-        silent = [row for row in content("other/aims_d.health.csv").splitlines() if b"no messages" in row]
-        self.assertEqual([row for row in silent if float(row.split(b",")[0]) < last - 0.5], [], live.log())
 
     def test_times_of_sending_that_dds_cannot_hold_are_named(self):
         import genpy
 
         far = altered("far.bag", lambda topic, message, stamp: (message, genpy.Time(2**32 - 1000 + stamp.secs)))
-        live = Live(far, "far", PATIENT, ["--rate", "0.01"])
+        live = Live(far, "far", pace=0.01)
         live.wait_for("reason", lambda: "no messages yet, though there are publishers of " in live.log())
-        live.play.send_signal(signal.SIGTERM)
-        said = live.play.communicate(timeout=20)[0]
+        live.stop_play(signal.SIGTERM)
         live.live.send_signal(signal.SIGTERM)
-        self.assertEqual(live.live.wait(20), 2, live.log())
-        self.assertRegex(said, r"messages were not sent: DDS holds times from 1970 to 2038, the first .* 4294966\d\d\d")
+        self.assertEqual(live.live.wait(PATIENCE_S), 2, live.log())
+        self.assertRegex(live.said,
+                         r"messages were not sent: DDS holds times from 1970 to 2038, the first .* 4294966\d\d\d")
 
     def test_commands_save_the_map_and_start_anew(self):
-        live = Live("walk.mcap", "commands", PATIENT)
+        live = Live("walk.mcap", "commands", pace=1)
         live.wait_for("estimate", lambda: live.written() > 2000)
         live.live.send_signal(signal.SIGUSR1)
         map_file = os.path.join("commands", "aims_d.map.ply")
@@ -312,6 +336,8 @@ class LiveEstimate(unittest.TestCase):
         live.wait_for("calibrated estimate", lambda: live.written("part-2"))
         live.wait_for("poses", lambda: len(places(live.poses("part-2"))) > 3)
         live.tell("reset")
+        live.wait_for("third estimate", lambda: live.written("part-3"))
+        live.stop_play(signal.SIGTERM)
         self.assertEqual(live.finish(signal.SIGHUP), 0, live.log())
         self.assertTrue(summary("commands/part-3")["complete"], "a lost terminal is an orderly end")
         self.assertIn("starting anew at the last pose: calibration, standing", live.log())
@@ -324,7 +350,7 @@ class LiveEstimate(unittest.TestCase):
         self.assertLess(distance(places(content(third))[0], (0, 0, 0)), 0.15, "a reset starts at the origin")
 
     def test_the_page_shows_what_is_estimated(self):
-        live = Live("walk.mcap", "watched", PATIENT)
+        live = Live("walk.mcap", "watched", pace=2)
         watch = subprocess.Popen([AIMS, "watch", "--domain", live.domain, "--port", "0"], stdout=subprocess.PIPE,
                                  text=True)
         try:
@@ -344,6 +370,7 @@ class LiveEstimate(unittest.TestCase):
             with urllib.request.urlopen(url, timeout=5) as page:
                 text = page.read().decode()
             self.assertIn("connect-src 'self'", text)
+            live.stop_play(signal.SIGTERM)
         finally:
             watch.send_signal(signal.SIGTERM)
             self.assertEqual(watch.wait(10), 0)
@@ -368,10 +395,10 @@ class LiveEstimate(unittest.TestCase):
             watch.stdout.close()
 
     def test_what_was_heard_is_recorded_though_it_never_starts(self):
-        live = Live("walk.mcap", "unstarted", ["--set", "recording.topics.lidar=/no/such", *PATIENT])
+        live = Live("walk.mcap", "unstarted", ["--set", "recording.topics.lidar=/no/such"])
         live.wait_for("reason", lambda: "waiting: " in live.log() and "/no/such" in live.log())
         live.live.send_signal(signal.SIGTERM)
-        self.assertEqual(live.live.wait(20), 2, live.log())
+        self.assertEqual(live.live.wait(PATIENCE_S), 2, live.log())
         live.kill()
         live.play.communicate()
         info = subprocess.run([AIMS, "info", "unstarted.mcap"], capture_output=True, text=True, check=False).stdout
@@ -379,7 +406,7 @@ class LiveEstimate(unittest.TestCase):
         self.assertIn("/lidar/points", info)
 
     def test_a_full_disk_is_a_warning_and_the_estimate_goes_on(self):
-        live = Live("walk.mcap", "full", PATIENT, limit=["bash", "-c", 'ulimit -f 2000; exec "$@"', "bash"])
+        live = Live("walk.mcap", "full", limit=["bash", "-c", 'ulimit -f 2000; exec "$@"', "bash"])
         self.assertEqual(live.finish(), 2, live.log())
         self.assertRegex(live.log(), "warning: .*full.mcap")
         self.assertGreater(len(places(live.poses())), 60, live.log())
@@ -393,28 +420,26 @@ class LiveEstimate(unittest.TestCase):
         self.assertEqual(ElementTree.fromstring(shlex.split(settings[1])[0].split("=", 1)[1]).tag, "CycloneDDS")
 
     def test_after_a_crash_the_files_can_be_used(self):
-        live = Live("walk.mcap", "crash", PATIENT)
+        live = Live("walk.mcap", "crash", pace=3)
         live.wait_for("walk", lambda: live.written() > 4000)
         live.live.kill()
         live.live.wait()
-        live.play.kill()
-        live.play.communicate()
+        live.stop_play()
         self.assertFalse(summary("crash")["complete"])
         self.assertGreaterEqual(len(places(live.poses())), summary("crash")["estimators"]["aims_d"]["poses"])
         run(AIMS, "info", "crash.mcap", "--recover")
 
     def test_a_broken_participant_is_counted_and_harms_nothing_else(self):
-        live = Live("walk.mcap", "garbage", PATIENT)
-        end = time.monotonic() + 30
-        while "publishes" not in live.log() and time.monotonic() < end:
-            time.sleep(0.1)
+        live = Live("walk.mcap", "garbage", pace=1)
+        live.wait_for("estimate", lambda: "publishes" in live.log())
         garbage = subprocess.run([GARBAGE, live.domain, "/imu/data", "sensor_msgs/Imu", "/lidar/points",
-                                  "sensor_msgs/PointCloud2"], capture_output=True, text=True, timeout=60, check=False)
+                                  "sensor_msgs/PointCloud2"], capture_output=True, text=True, timeout=300, check=False)
         self.assertEqual((garbage.returncode, garbage.stdout), (0, "sent\n"))
+        live.wait_for("poses", lambda: len(places(live.poses())) > 60)
+        live.stop_play(signal.SIGTERM)
         self.assertEqual(live.finish(), 0, live.log()[-2000:])
         self.assertRegex(live.log(), "note: imu_malformed: [1-9]")
         self.assertRegex(live.log(), "note: lidar_malformed: [1-9]")
-        self.assertGreater(len(live.poses().splitlines()), 60, live.log())
 
 
 # Topic, type under DDS, durability of what the simulation records.
@@ -447,10 +472,9 @@ class FastDds(unittest.TestCase):
         return self.processes[-1]
 
     def test_clouds_and_all_else_pass_through_it_and_it_reads_the_odometry(self):
-        run(AIMS, "simulate", SCENARIO, "-o", "walk.mcap", "--quiet", "--overwrite")
         played = own_domain()
         topics = ["/" + topic for topic, _, _ in RELAYED]
-        live = Live("walk.mcap", "fastdds", ["--source_time", *PATIENT], ["--topics", ",".join(topics)], played)
+        live = Live("walk.mcap", "fastdds", play=["--topics", ",".join(topics)], pace=2, play_domain=played)
         self.peer("relay", played, live.domain, *[f"{word}" if i else f"rt/{word}"
                                                   for each in RELAYED for i, word in enumerate(each)])
         reader = self.peer("odometry", live.domain, "rt/aims/odometry")
@@ -472,8 +496,30 @@ class FastDds(unittest.TestCase):
         self.assertLess(max(speeds), 2.0)
 
 
+def tests_of(suite):
+    for each in suite:
+        yield from tests_of(each) if isinstance(each, unittest.TestSuite) else [each]
+
+
+def passes(test):
+    result = test.run()
+    begin = "ok" if result.wasSuccessful() else "FAILED"
+    print(f"{begin}: {test.id()} {result.skipped}", *[text for _, text in result.failures + result.errors], sep="\n",
+          flush=True)
+    return result.wasSuccessful()
+
+
+def main(names):
+    """Two at a time: a test waits most of its time, for a robot that walks."""
+    LiveEstimate.prepare()
+    loader, module = unittest.defaultTestLoader, sys.modules["__main__"]
+    suite = loader.loadTestsFromNames(names, module) if names else loader.loadTestsFromModule(module)
+    with ThreadPoolExecutor(2) as pool:
+        return 0 if all(list(pool.map(passes, tests_of(suite)))) else 1
+
+
 if __name__ == "__main__":
     AIMS, GARBAGE, PEER, work = sys.argv[1:5]
     os.makedirs(work, exist_ok=True)
     os.chdir(work)
-    unittest.main(argv=[sys.argv[0], *sys.argv[5:]], warnings="ignore")
+    sys.exit(main(sys.argv[5:]))
