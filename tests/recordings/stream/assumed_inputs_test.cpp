@@ -2,6 +2,7 @@
 // Assumptions about a recording that decide the result are warnings.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "recordings/messages/message_encoding.hpp"
@@ -19,6 +20,12 @@ using test::RobotRecording;
 
 class AssumedInputs : public test::RecordingTest {
  protected:
+  static bool warns(const RecordingSetup& setup, const std::string& part) {
+    return std::ranges::any_of(setup.warnings, [&](const ReadingWarning& each) {
+      return each.text.find(part) != std::string::npos;
+    });
+  }
+
   /// A robot with that topic of nav_msgs/Odometry.
   Recording with_odometry(const std::string& topic, const RecordingConfig& config = {}) {
     std::filesystem::remove(bag());
@@ -44,6 +51,18 @@ TEST_F(AssumedInputs, AMotionCaptureIsNoLegOdometry) {
   chosen.topics.leg_odometry = "/mocap/odom";
   EXPECT_TRUE(with_odometry("/mocap/odom", chosen).setup.has_legs);
   EXPECT_TRUE(with_odometry("/gtsam_legs/odom").setup.has_legs) << "no word of it is gt";
+}
+
+TEST_F(AssumedInputs, TheOnlyOdometryIsNamedAndThatOfAnotherEstimatorIsAWarning) {
+  const Recording usual = with_odometry("/odom");
+  EXPECT_TRUE(usual.setup.has_legs);
+  EXPECT_TRUE(usual.noted("leg odometry: /odom"));
+  EXPECT_FALSE(warns(usual.setup, "estimate of another system"));
+  EXPECT_TRUE(warns(with_odometry("/fast_lio/odometry").setup,
+                    "/fast_lio/odometry is taken as leg odometry"));
+  RecordingConfig chosen;
+  chosen.topics.leg_odometry = "/fast_lio/odometry";
+  EXPECT_FALSE(warns(with_odometry("/fast_lio/odometry", chosen).setup, "another system"));
 }
 
 }  // namespace
