@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace aims {
@@ -14,6 +15,8 @@ namespace {
 constexpr std::uint64_t kRunBytes = std::uint64_t{4} << 20;
 /// The fields of a chunk in front of its records, with the name of its compression [bytes].
 constexpr std::uint64_t kChunkFields = 128;
+/// Of a file, searched at a time.
+constexpr std::uint64_t kSearchBytes = std::uint64_t{1} << 20;
 /// Largest ratios of unpacked to packed bytes.
 constexpr std::uint64_t kMaxLz4Ratio = 256;
 
@@ -38,6 +41,42 @@ void add_to_run(const McapPlace& record, std::vector<ChunkPlace>& chunks, bool& 
   }
   in_run = true;
   chunks.back().size = chunks.back().packed_size = record.end() - chunks.back().position;
+}
+
+/// Whether a chunk may begin at these bytes: its opcode, and a size that the file has room for.
+bool may_be_chunk(const std::byte* bytes, std::uint64_t room) {
+  if (std::to_integer<std::uint8_t>(*bytes) != static_cast<std::uint8_t>(McapOp::kChunk)) {
+    return false;
+  }
+  const auto size = load_number<std::uint64_t>(bytes + 1);
+  return size > 0 && size <= room;
+}
+
+/// Where the next chunk that states what can be begins, from `position` on; nothing without one.
+std::optional<std::uint64_t> next_chunk(const BagFile& file, std::uint64_t position) {
+  std::vector<std::byte> block(kSearchBytes);
+  while (position + kMcapPrefix < file.size()) {
+    block.resize(std::min<std::uint64_t>(kSearchBytes, file.size() - position));
+    if (!file.read(position, block)) return std::nullopt;
+    const std::uint64_t last = block.size() - kMcapPrefix;
+    for (std::uint64_t i = 0; i <= last; ++i) {
+      const std::uint64_t at = position + i;
+      if (!may_be_chunk(block.data() + i, file.size() - at - kMcapPrefix)) continue;
+      const auto record = mcap_place(file, at);
+      if (record && mcap_chunk_place(file, *record)) return at;
+    }
+    position += last + 1;
+  }
+  return std::nullopt;
+}
+
+/// Goes on behind a damaged part, at the next chunk; false where there is none.
+bool pass_damage(const BagFile& file, McapScan& scan, std::uint64_t end) {
+  const auto found = next_chunk(file, scan.end + 1);
+  if (!found || *found >= end) return false;
+  scan.lost_bytes += *found - scan.end;
+  scan.end = *found;
+  return true;
 }
 
 }  // namespace
@@ -100,6 +139,11 @@ McapScan scan_mcap(const BagFile& file, std::uint64_t position, std::uint64_t en
   bool in_run = false;
   while (scan.end < end) {
     const auto record = mcap_place(file, scan.end);
+    const bool damaged = !record || record->op == static_cast<McapOp>(0);
+    if (damaged && recover && pass_damage(file, scan, end)) {
+      in_run = false;
+      continue;
+    }
     if (!record) {
       scan.broken = record.error();
       return scan;

@@ -54,6 +54,14 @@ bool is_same(const fs::path& a, const fs::path& b) {
   return fs::equivalent(a, b, ignored);
 }
 
+std::string first_bytes(const fs::path& file) {
+  std::string start(16, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
+  return start;
+}
+
 template <class Reader>
 Result<std::unique_ptr<MessageSource>> opened(const fs::path& file, BagOpenOptions options) {
   auto reader = Reader::open(file, options);
@@ -96,6 +104,22 @@ Result<std::unique_ptr<MessageSource>> merged(const std::string& name,
   return all;
 }
 
+/// Error for a file that is empty or packed as a whole.
+Result<void> refuse_packed(const fs::path& file) {
+  constexpr auto kPacked = std::to_array<std::pair<std::string_view, std::string_view>>(
+      {{"\x1f\x8b", "gunzip"}, {"BZh", "bunzip2"}, {"\xfd\x37zXZ", "unxz"}, {"PK", "unzip"}});
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) return {};
+  const std::string start = first_bytes(file);
+  if (start.empty()) return failure(fmt::format("{}: the file is empty", file.string()));
+  for (const auto& [sign, program] : kPacked) {
+    if (!start.starts_with(sign)) continue;
+    return failure(
+        fmt::format("{}: the file is packed: unpack it with {}", file.string(), program));
+  }
+  return {};
+}
+
 template <class Writer>
 Result<std::unique_ptr<MessageSink>> created(const fs::path& file, BagWriterOptions options) {
   auto writer = Writer::create(file, options);
@@ -109,9 +133,7 @@ std::optional<RecordingFormat> format_by_content(const fs::path& file) {
   std::error_code ignored;
   if (fs::exists(file / kRosbag2Metadata, ignored)) return RecordingFormat::kRosbag2;
   if (!fs::is_regular_file(file, ignored)) return std::nullopt;  // a pipe would hang
-  std::string start(16, '\0');
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+  const std::string start = first_bytes(file);
   for (const FormatSign& sign : kSigns) {
     if (!sign.first_bytes.empty() && start.starts_with(sign.first_bytes)) return sign.format;
   }
@@ -140,6 +162,7 @@ Result<std::unique_ptr<MessageSource>> open_recording(const fs::path& file,
     if (!parts.empty()) return merged(file.string(), parts, options);
     return opened<Rosbag2Reader>(file, options);
   }
+  if (auto plain = refuse_packed(file); !plain) return tl::unexpected(plain.error());
   const auto known = format_by_content(file);
   const auto format = known ? known : format_by_name(file);
   if (format == RecordingFormat::kMcap) return opened<McapReader>(file, options);

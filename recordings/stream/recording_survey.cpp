@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -13,6 +14,7 @@
 #include "recordings/stream/gravity_unit.hpp"
 #include "recordings/stream/motion_window.hpp"
 #include "recordings/stream/record_clock.hpp"
+#include "recordings/topics/recording_topics.hpp"
 
 namespace aims {
 namespace {
@@ -262,8 +264,26 @@ void RecordingSurvey::warn_of_motion(const RecordingPlan& plan) {
               "velocity and gyro bias are then wrong; begin the recording before it walks");
 }
 
+/// Warns of an odometry whose name does not say that it is of legs or of the robot alone.
+void RecordingSurvey::warn_of_odometry(const std::string& type) {
+  constexpr auto kEstimators = std::to_array<std::string_view>(
+      {"lio", "loam", "slam", "icp", "vio", "vins", "lidar", "visual", "camera", "zed", "fused",
+       "filtered", "ekf", "amcl", "gps", "gnss", "map", "estimat"});
+  const std::string& topic = topics_.leg_odometry;
+  if (!config_.topics.leg_odometry.empty() || type != "nav_msgs/Odometry") return;
+  if (topic == kLegOdometryTopic) return;
+  notes_.push_back(fmt::format("leg odometry: {}, the only nav_msgs/Odometry", topic));
+  const auto named = [&](std::string_view part) { return topic.find(part) != std::string::npos; };
+  if (named("leg") || std::ranges::none_of(kEstimators, named)) return;
+  notes_.warn("leg odometry is perhaps of another estimator",
+              fmt::format("{} is taken as leg odometry, though by its name it is the estimate of "
+                          "another system: if it is, set recording.topics.leg_odometry=none",
+                          topic));
+}
+
 void RecordingSurvey::decide_legs(RecordingPlan& plan) {
   const Seen& legs = seen(Role::kLegs);
+  warn_of_odometry(legs.type);
   ReadingNotes ignored;  // the frames are decided, and noted, later
   legs_.decide_order(
       frames_.extrinsic(config_.T_imu_base, imu_frame(), base_frame(), "T_imu_base", ignored)

@@ -215,6 +215,22 @@ TEST_F(Mcap, RecoverySkipsAndCountsADamagedChunk) {
   EXPECT_GT(recovered.summary.lost_bytes, 0U);
 }
 
+TEST_F(Mcap, RecoveryGoesOnBehindAHole) {
+  const std::string whole = sample();
+  std::string bytes = whole;
+  const std::size_t from = bytes.find("message 5");
+  for (const char filling : {'\0', '\xff', '\x06'}) {
+    std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(from),
+              bytes.begin() + static_cast<std::ptrdiff_t>(from + 300), filling);
+    const ReadOutcome recovered = read(bytes, {.recover = true});
+    EXPECT_EQ(recovered.error, "");
+    ASSERT_FALSE(recovered.messages.empty());
+    EXPECT_EQ(recovered.messages.back(), few_messages().back()) << "behind the hole";
+    EXPECT_GT(recovered.summary.lost_bytes, 300U);
+    EXPECT_LT(recovered.summary.lost_bytes, whole.size() / 2);
+  }
+}
+
 TEST_F(Mcap, ErrorsNameTheByteAndWhatWasExpected) {
   expect_error("\x89MCAP1\r\n and more", "expected an MCAP file of version 0, found");
   expect_error("", "found ''");
