@@ -53,7 +53,7 @@ TEST_F(Completion, OfKeys) {
   EXPECT_EQ(in_bash("aims run --set lidar.range_mi"), Words({"lidar.range_min="}));
   EXPECT_TRUE(in_bash("aims suite --set lidar.ra").contains("lidar.range_max="));
   EXPECT_TRUE(
-      in_bash("aims run --set estimators.lio.").contains("estimators.lio.lidar.range_max="));
+      in_bash("aims run --set estimators.lio.").contains("estimators.lio.lidar.enabled="));
   EXPECT_TRUE(in_bash("aims estimate --set lidar.ra").empty()) << "no key of a recording";
 }
 
