@@ -12,7 +12,6 @@ namespace aims {
 namespace {
 
 constexpr double kClockOffset = 0.02;  ///< that counts: half of what scans of 10 Hz show [s]
-constexpr Duration kLongest = 180 * kSecond;
 
 std::vector<std::string> words(const RateCheck& check, const RecordingConfig& config) {
   if (check.is_wrong_unit()) {
@@ -100,7 +99,7 @@ Result<std::vector<std::string>> mount_report(const EstimateConfig& config,
     return std::vector<std::string>{"mount of the LiDAR: not checked: needs an IMU and rings"};
   }
   std::vector<Delivery> batch;
-  for (bool more = true; more && reader->position() < kLongest;) {
+  for (bool more = true; more && reader->position() < RotationEvidence::kLongest;) {
     batch.clear();
     const auto next = reader->advance(kStreamBatch, batch);
     more = next && *next;
@@ -111,16 +110,13 @@ Result<std::vector<std::string>> mount_report(const EstimateConfig& config,
   std::vector<std::string> lines = words(rates, config.recording);
   if (rates.is_wrong_unit()) return lines;
   const Pose& T_imu_lidar = reader->setup().rig.T_body_lidar;
-  const MountCheck check =
-      check_mount(evidence->pairs(), T_imu_lidar.rotation, evidence->first_force());
-  for (std::string& line : words(check, T_imu_lidar)) lines.push_back(std::move(line));
+  for (std::string& line : words(evidence->mount(), T_imu_lidar)) lines.push_back(std::move(line));
   return lines;
 }
 
 std::optional<ReadingWarning> warning_of(const RotationEvidence& evidence,
                                          const Pose& T_imu_lidar) {
-  const MountCheck check =
-      check_mount(evidence.pairs(), T_imu_lidar.rotation, evidence.first_force());
+  const MountCheck check = evidence.mount();
   if (!check.contradicts) return std::nullopt;
   const std::string advice =
       check.correctable ? ": try " + correction_text(check, T_imu_lidar) : std::string();

@@ -13,19 +13,18 @@
 namespace aims {
 namespace {
 
-constexpr double kLeastRotation = 0.05;  ///< about an axis that counts: turns, not noise [rad]
-constexpr double kNoise = 0.02;          ///< of LiDAR odometry over an interval [rad]
-constexpr int kFewestTurns = 5;          ///< intervals
-constexpr double kWrong = 0.006;         ///< residual of a mount that is wrong: 6 degrees [-]
-constexpr double kBetter = 0.4;          ///< residual of a better one, of the given one's [-]
-constexpr double kAlike = 1.5;           ///< between residuals of mounts that fit alike [-]
-constexpr double kLeastRate = 0.01;      ///< mean of LiDAR odometry of a body that turns [rad/s]
-constexpr double kOtherUnit = 15.0;      ///< scale beyond noise and vibration; 57 for degrees [-]
-constexpr double kScaleError = 0.2;      ///< of a gyro that is no fault
-constexpr double kCorrelated = 0.9;      ///< an axis of another scale
-constexpr double kUpright = 0.5;         ///< least part of gravity along z of the LiDAR
-constexpr double kRightAngles = 0.7;     ///< turns beyond are those of mounts by right angles [rad]
-constexpr double kLeastTurn = 0.1;       ///< of a mount that is off [rad]
+constexpr double kNoise = 0.02;       ///< of LiDAR odometry over an interval [rad]
+constexpr int kFewestTurns = 5;       ///< intervals
+constexpr double kWrong = 0.006;      ///< residual of a mount that is wrong: 6 degrees [-]
+constexpr double kBetter = 0.4;       ///< residual of a better one, of the given one's [-]
+constexpr double kAlike = 1.5;        ///< between residuals of mounts that fit alike [-]
+constexpr double kLeastRate = 0.01;   ///< mean of LiDAR odometry of a body that turns [rad/s]
+constexpr double kOtherUnit = 15.0;   ///< scale beyond noise and vibration; 57 for degrees [-]
+constexpr double kScaleError = 0.2;   ///< of a gyro that is no fault
+constexpr double kCorrelated = 0.9;   ///< an axis of another scale
+constexpr double kUpright = 0.5;      ///< least part of gravity along z of the LiDAR
+constexpr double kRightAngles = 0.7;  ///< turns beyond are those of mounts by right angles [rad]
+constexpr double kLeastTurn = 0.1;    ///< of a mount that is off [rad]
 constexpr double kLeastDegrees = 40.0, kMostDegrees = 80.0;  ///< scale of a gyro in deg/s: 57
 constexpr double kOneAxis = 0.02;  ///< squared rotation about others, of the whole
 

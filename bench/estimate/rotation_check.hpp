@@ -18,6 +18,9 @@ struct RotationPair {
   Eigen::Vector3d lidar = Eigen::Vector3d::Zero();  ///< in the LiDAR frame [rad]
 };
 
+/// Rotation of an interval, or about an axis in it, that counts: a turn, not noise [rad].
+inline constexpr double kLeastRotation = 0.05;
+
 /// What rotations say of one axis of the gyro, with the given mount.
 struct AxisCheck {
   int intervals = 0;         ///< in which LiDAR odometry turns about it

@@ -13,14 +13,12 @@ namespace aims {
 namespace {
 
 constexpr Duration kInterval = 500 * kMillisecond;
-constexpr Duration kLongest = 180 * kSecond;  ///< of all scans
-constexpr std::size_t kMostScans = 200;       ///< of turns
-constexpr int kLastSamples = 1000;            ///< of the IMU, kept between turns
-constexpr double kTurning = 0.1;              ///< mean of the gyro over kShort [rad/s]
+constexpr std::size_t kMostScans = 200;  ///< of turns
+constexpr int kLastSamples = 1000;       ///< of the IMU, kept between turns
+constexpr double kTurning = 0.1;         ///< mean of the gyro over kShort [rad/s]
 constexpr Duration kShort = 250 * kMillisecond;
 constexpr Duration kAfterTurn = 3 * kInterval;
-constexpr double kFullTurns = 3.0;       ///< of another unit, whose multiples of a turn count [rad]
-constexpr double kLeastRotation = 0.05;  ///< of an interval: turns, not noise [rad]
+constexpr double kFullTurns = 3.0;  ///< of another unit, whose multiples of a turn count [rad]
 
 /// The rotation from the gyro between two stamps.
 Eigen::Vector3d gyro_rotation(std::span<const ImuSample> samples, Time begin, Time end) {
@@ -157,13 +155,13 @@ std::vector<ImuSample> RotationEvidence::seen_by_scans() const {
   return means;
 }
 
-std::vector<RotationPair> RotationEvidence::pairs() const {
+MountCheck RotationEvidence::mount() const {
   std::vector<RotationPair> pairs;
   const auto samples = seen_by_scans();
   for (const Trajectory& each : turns_) {
     add_pairs(each, half_scan(), samples, rig_.T_body_lidar.rotation, pairs);
   }
-  return pairs;
+  return check_mount(pairs, rig_.T_body_lidar.rotation, first_force_);
 }
 
 RateCheck RotationEvidence::rates() const {

@@ -30,11 +30,12 @@ class RotationEvidence {
   /// Call once, after the last delivery.
   void finish();
 
-  /// Rotations over intervals of half a second in which the body turns.
-  std::vector<RotationPair> pairs() const;
+  /// By rotations over intervals of half a second in which the body turns.
+  MountCheck mount() const;
   RateCheck rates() const;
-  /// Sum of the specific force over the first second, IMU axes.
-  const Eigen::Vector3d& first_force() const { return first_force_; }
+
+  /// Scans that kAll watches.
+  static constexpr Duration kLongest = 180 * kSecond;
 
  private:
   RotationEvidence(const SensorRig& rig, WatchedScans watched) : rig_(rig), watched_(watched) {}
@@ -48,11 +49,11 @@ class RotationEvidence {
 
   SensorRig rig_;
   WatchedScans watched_;
-  std::unique_ptr<Estimator> odometry_;  ///< of the present turn
-  std::vector<Trajectory> turns_;        ///< of the LiDAR odometry
-  std::vector<ImuSample> samples_;       ///< of turns, and the last ones
-  std::size_t kept_ = 0;                 ///< samples of turns
-  Eigen::Vector3d first_force_ = Eigen::Vector3d::Zero();
+  std::unique_ptr<Estimator> odometry_;                    ///< of the present turn
+  std::vector<Trajectory> turns_;                          ///< of the LiDAR odometry
+  std::vector<ImuSample> samples_;                         ///< of turns, and the last ones
+  std::size_t kept_ = 0;                                   ///< samples of turns
+  Eigen::Vector3d first_force_ = Eigen::Vector3d::Zero();  ///< sum over the first second, IMU axes
   std::optional<Time> first_sample_;
   std::vector<Duration> scan_times_;
   std::optional<Time> first_scan_;

@@ -114,7 +114,7 @@ std::optional<LinearMeasurement> FeetOdometry::measure(const LegOdometrySample& 
   const double variance = variance_of_feet(weight, rig_.leg_rate_hz);
   const LinearMeasurement measurement = model(velocity_, variance);
 
-  learn_compliance(*joints, turning, up, select, climb);
+  if (compliance_.learns()) learn_compliance(*joints, turning, up, select, climb);
   return measurement;
 }
 

@@ -53,10 +53,12 @@ LoadShares JointCompliance::shares(const LegOdometrySample& sample, double rate_
   return mean_load_ > 0.0 ? LoadShares(loads / mean_load_) : LoadShares::Zero();
 }
 
-bool JointCompliance::is_learned() const { return known_variance_ || walked_ >= kLearningTime; }
+bool JointCompliance::learns() const { return walked_ < kLearningTime; }
+
+bool JointCompliance::is_learned() const { return known_variance_ || !learns(); }
 
 void JointCompliance::update(const Drift& drift, double rate_hz) {
-  if (walked_ >= kLearningTime) return;
+  if (!learns()) return;
   walked_ = std::min(walked_ + 1.0 / rate_hz, kLearningTime);
   const double gain = 1.0 / (walked_ * rate_hz);
   mean_.climb += gain * (drift.climb - mean_.climb);
@@ -86,7 +88,7 @@ void JointCompliance::know(double value, double sigma) {
 
 /// At the end of learning: the value by the drift alone against the one that is known.
 void JointCompliance::judge_known() {
-  if (!known_variance_ || walked_ < kLearningTime || information() == 0.0) return;
+  if (!known_variance_ || learns() || information() == 0.0) return;
   const double difference = information_vector() / information() - value_;
   contradicted_ =
       difference * difference > kChiSquare9999[0] * (1.0 / information() + *known_variance_);

@@ -38,6 +38,8 @@ class JointCompliance {
   /// Whether it has walked long enough, or is known: the value then stays, and with it the scale of
   /// the legs.
   bool is_learned() const;
+  /// Whether update() still changes anything.
+  bool learns() const;
   /// Holds the value that another run has found, with its deviation [rad/m], until the drift of
   /// this one contradicts it.
   void know(double value, double sigma);

@@ -2,9 +2,10 @@
 #include "recordings/messages/robot_states.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <initializer_list>
 #include <vector>
+
+#include "recordings/messages/words.hpp"
 
 namespace aims {
 namespace {
@@ -117,24 +118,11 @@ std::vector<std::string_view> imus_of_all() {
   return imus;
 }
 
-bool is_in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-
-bool has_word(std::string_view text, std::string_view word) {
-  for (std::size_t at = text.find(word); at != std::string_view::npos;
-       at = text.find(word, at + 1)) {
-    const std::size_t end = at + word.size();
-    if ((at == 0 || !is_in_word(text[at - 1])) && (end == text.size() || !is_in_word(text[end]))) {
-      return true;
-    }
-  }
-  return false;
-}
-
 /// Whether each name of the path is a word of the definition.
 bool has_fields(std::string_view definition, std::string_view path) {
   while (!path.empty()) {
     const std::size_t end = std::min(path.find_first_of(".[]"), path.size());
-    if (end > 0 && !has_word(definition, path.substr(0, end))) return false;
+    if (end > 0 && !has_word(definition, path.substr(0, end), "_")) return false;
     path.remove_prefix(std::min(end + 1, path.size()));
   }
   return true;

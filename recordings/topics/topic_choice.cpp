@@ -12,6 +12,7 @@
 
 #include "recordings/messages/inertial_topics.hpp"
 #include "recordings/messages/robot_states.hpp"
+#include "recordings/messages/words.hpp"
 #include "recordings/topics/recording_topics.hpp"
 
 namespace aims {
@@ -24,19 +25,6 @@ bool holds(std::string_view text, std::string_view part) {
   return std::search(text.begin(), text.end(), part.begin(), part.end(), [](char a, char b) {
            return std::tolower(static_cast<unsigned char>(a)) == b;
          }) != text.end();
-}
-
-/// Whether a word of the name is this one: "/gt_odom" and "/robot/gt", not "/gtsam".
-bool is_word_of(std::string_view topic, std::string_view word) {
-  const auto is_letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
-  for (std::size_t at = topic.find(word); at != std::string_view::npos;
-       at = topic.find(word, at + 1)) {
-    const std::size_t end = at + word.size();
-    if ((at == 0 || !is_letter(topic[at - 1])) && (end == topic.size() || !is_letter(topic[end]))) {
-      return true;
-    }
-  }
-  return false;
 }
 
 bool is_cloud(const BagConnection& c) { return is_cloud_type(c.type); }
@@ -74,7 +62,7 @@ bool is_called_truth(const BagConnection& c) {
   constexpr auto kNames = std::to_array<std::string_view>(
       {"truth", "mocap", "motion_capture", "vicon", "optitrack", "qualisys", "vrpn", "natnet"});
   const auto named = [&c](std::string_view name) { return holds(c.topic, name); };
-  return std::ranges::any_of(kNames, named) || is_word_of(c.topic, "gt");
+  return std::ranges::any_of(kNames, named) || has_word(c.topic, "gt");
 }
 bool may_be_odometry(const BagConnection& c) { return is_odometry(c) && !is_called_truth(c); }
 bool may_be_twist(const BagConnection& c) {
