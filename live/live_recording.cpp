@@ -15,6 +15,7 @@
 #include "core/stopwatch.hpp"
 #include "live/inbox.hpp"
 #include "recordings/messages/message_values.hpp"
+#include "recordings/stream/decided_start.hpp"
 #include "recordings/topics/recording_topics.hpp"
 
 namespace aims {
@@ -81,7 +82,7 @@ class Gathering {
     const auto topics = transport_.topics();
     for (const auto& [topic, type] : topics) {
       if (std::ranges::find(kIgnoredTypes, type) != kIgnoredTypes.end()) continue;
-      if (is_estimated(topic, topics) || is_command(topic)) continue;
+      if (is_estimated(topic, topics) || is_command(topic) || topic == kDecidedTopic) continue;
       if (subscribed_.insert(topic).second) transport_.subscribe(topic, type);
     }
     const Stopwatch timer;

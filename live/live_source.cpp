@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "recordings/messages/message_encoding.hpp"
 #include "recordings/messages/message_types.hpp"
+#include "recordings/stream/decided_start.hpp"
 
 namespace aims {
 
@@ -79,10 +81,28 @@ void LiveSource::go_live(Observer observer, ClockWatch* clocks) {
   live_ = true;
   clocks_ = clocks;
   observer_ = std::move(observer);
-  if (!observer_) return;
+  if (observer_) show_start();
+}
+
+/// Shows the observer what was gathered, and where it ends: a replay decides from the same.
+void LiveSource::show_start() {
   const Time now = std::exchange(last_, summary_.start);
   for (const LiveMessage& message : *gathered_) {
     observer_(as_recorded(message, *find(*message.connection)));
+  }
+  if (!connections_.empty()) {
+    const MessageFormat format = connections_.front().format;
+    const MessageType type =
+        format == kRos2Format ? *known_ros2_type("std_msgs/String") : string_type();
+    decided_ = {.id = static_cast<std::uint32_t>(connections_.size()),
+                .topic = kDecidedTopic,
+                .type = type.name,
+                .md5 = type.md5,
+                .definition = type.definition,
+                .format = format};
+    const auto text =
+        string_message("the live estimate decided from the messages before", format.serialization);
+    observer_({.connection = &decided_, .record_time = last_, .data = text.view()});
   }
   last_ = now;
 }

@@ -48,7 +48,8 @@ class LiveSource final : public MessageSource {
   bool selects(const std::string& topic) const { return !selected_ || selected_->contains(topic); }
 
   /// Makes `next` wait for new messages after the gathered ones instead of ending. `observer` sees
-  /// all messages of the gathered topics, selected or not. `clocks` judges the stamps of the
+  /// all messages of the gathered topics, selected or not, and behind the gathered ones one on
+  /// `kDecidedTopic`. `clocks` judges the stamps of the
   /// selected ones: once it is broken, `next` ends; it must outlive the source.
   void go_live(Observer observer = {}, ClockWatch* clocks = nullptr);
 
@@ -58,6 +59,7 @@ class LiveSource final : public MessageSource {
   const LiveMessage* following();
   bool goes_on(const LiveMessage& message, const BagConnection& connection);
   BagMessage as_recorded(const LiveMessage& message, const BagConnection& connection);
+  void show_start();
 
   std::shared_ptr<LiveMessages> gathered_;
   Wait wait_;
@@ -66,6 +68,7 @@ class LiveSource final : public MessageSource {
   std::optional<std::set<std::string>> selected_;  ///< nothing: all topics
   bool live_ = false;
   Observer observer_;
+  BagConnection decided_;  ///< of the message that says where the gathered ones end
   ClockWatch* clocks_ = nullptr;
   std::map<const BagConnection*, std::optional<MessageDecoder>> decoders_;  ///< for the stamps
   std::size_t position_ = 0;  ///< among the gathered messages

@@ -136,6 +136,9 @@ void describe(Fields& f, RecordingConfig& c) {
   f.number("lidar_delay", c.lidar_delay, delay_of("LiDAR"));
   f.number("leg_delay", c.leg_delay, delay_of("legs"));
   describe_legs(f, c);
+  f.flag("as_live", c.as_live,
+         dimensionless("read the record of a live estimate as that one did: units, clocks and "
+                       "contacts from what it had heard when it started"));
 }
 
 }  // namespace aims

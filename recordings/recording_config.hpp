@@ -101,6 +101,8 @@ struct RecordingConfig {
   /// Of the robot; by default what a simulated recording states, else that of the default robot.
   LegGeometry leg_geometry{0.188, 0.047, 0.08, 0.213, 0.213, 0.022};
   FootModel foot_model = FootModel::kPoint;  ///< for legs without odometry
+  /// A record of a live estimate is read as that one read it.
+  bool as_live = true;
 };
 
 void describe(Fields& fields, TopicsConfig& config);

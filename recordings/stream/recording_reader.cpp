@@ -10,6 +10,7 @@
 #include "core/text.hpp"
 #include "recordings/legs/leg_stream.hpp"
 #include "recordings/source/recording_file.hpp"
+#include "recordings/stream/decided_start.hpp"
 #include "recordings/stream/record_clock.hpp"
 #include "recordings/stream/recording_plan.hpp"
 #include "recordings/stream/repeated_samples.hpp"
@@ -377,7 +378,14 @@ Result<RecordingReader> RecordingReader::open(std::unique_ptr<MessageSource> bag
   if (!topics) return tl::unexpected(topics.error());
   auto channels = RecordingChannels::create(name, bag->connections(), *topics);
   if (!channels) return tl::unexpected(channels.error());
-  auto plan = plan_recording(*bag, config, *topics, *channels, std::move(notes));
+  DecidedStart start(*bag);
+  const bool as_live = config.as_live && is_of_live_estimate(*bag);
+  if (as_live) {
+    notes.push_back(
+        "units, clocks and contacts: decided as by the live estimate that recorded it, from what it "
+        "had heard (as_live)");
+  }
+  auto plan = plan_recording(as_live ? start : *bag, config, *topics, *channels, std::move(notes));
   if (!plan) return tl::unexpected(plan.error());
   bag->select(channels->topics());
   bag->rewind();

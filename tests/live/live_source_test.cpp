@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "recordings/stream/decided_start.hpp"
+
 namespace aims {
 namespace {
 
@@ -103,11 +105,14 @@ TEST_F(LiveSourceTest, ShowsAnObserverAllThatIsHeardInOrderAndReturnsWhatIsSelec
   LiveSource source(gathered_, network_.wait());
   const std::array<std::string, 1> topics = {"/a"};
   source.select(topics);
+  constexpr int kDecided = -1;  // the message behind those that were gathered
   std::vector<int> observed;
-  source.go_live(
-      [&](const BagMessage& seen) { observed.push_back(static_cast<int>(seen.data[0])); });
+  source.go_live([&](const BagMessage& seen) {
+    const bool decided = seen.connection->topic == kDecidedTopic;
+    observed.push_back(decided ? kDecided : static_cast<int>(seen.data[0]));
+  });
   EXPECT_EQ(values_of(source), (std::vector{1, 3, 5}));
-  EXPECT_EQ(observed, (std::vector{1, 2, 3, 4, 5}));
+  EXPECT_EQ(observed, (std::vector{1, 2, 3, kDecided, 4, 5}));
 }
 
 TEST_F(LiveSourceTest, SkipsTopicsAndTypesThatWereNotGathered) {
