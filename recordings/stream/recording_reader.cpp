@@ -345,6 +345,13 @@ void RecordingReader::Impl::receive(const BagMessage& given, std::vector<Deliver
   if (channel == nullptr) return;
   const auto view = channel->decoder.decode(message.data);
   const bool unset = view && is_unset(given, *channel, *view);
+  if (view && !unset && first_role(*channel) == static_cast<std::size_t>(Role::kTruth)) {
+    // For scoring alone: it moves no arrival of a measurement.
+    const Time last = std::exchange(record_time, message.record_time);
+    take(*channel, *view, out);
+    record_time = last;
+    return;
+  }
   if (view && !unset) message.record_time = arrival(message, *channel, *view);
   release(message.record_time, out);
   record_time = message.record_time;

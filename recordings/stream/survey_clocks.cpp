@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "recordings/clouds/stamp_steps.hpp"
@@ -280,8 +281,9 @@ void RecordingSurvey::note_record_times(Role role, const std::string& topic) {
 void RecordingSurvey::decide_stamps(RecordingPlan& plan) {
   leave_out_unset();
   // Of the topic with the most messages, whose stamps tell the step best.
+  const auto measured = std::span(seen_).first(static_cast<std::size_t>(Role::kTruth));
   const auto densest =
-      std::ranges::max_element(seen_, {}, [](const Seen& each) { return each.stamps.size(); });
+      std::ranges::max_element(measured, {}, [](const Seen& each) { return each.stamps.size(); });
   const auto step = clock_step_of(*densest);
   if (step) {
     plan.max_early = std::min(plan.max_early, step->back / 2);

@@ -57,7 +57,7 @@ test::KinematicConfig small_world() {
 }
 
 void record(const std::filesystem::path& bag, const SensorRig& rig,
-            const std::vector<Delivery>& deliveries) {
+            const std::vector<Delivery>& deliveries, Time truth_until = kSecond) {
   auto writer = RecordingWriter::create(bag, rig, "seed: 1");
   ASSERT_TRUE(writer) << writer.error().message;
   for (const Delivery& each : deliveries) {
@@ -72,7 +72,7 @@ void record(const std::filesystem::path& bag, const SensorRig& rig,
     }
     ASSERT_TRUE(ok) << ok.error().message;
   }
-  for (Time stamp = 0; stamp < kSecond; stamp += 100 * kMillisecond) {
+  for (Time stamp = 0; stamp < truth_until; stamp += 100 * kMillisecond) {
     BodyMotion motion;
     motion.stamp = stamp;
     motion.T_world_body.translation.x() = to_seconds(stamp);
@@ -186,6 +186,27 @@ TEST_F(SplitRecording, AFileNamedTwiceIsRefused) {
   const auto again = open_recording(lidar_, {.with = {imu_, lidar_}});
   ASSERT_FALSE(again);
   EXPECT_NE(again.error().message.find("a_lidar.bag: named twice"), std::string::npos);
+}
+
+TEST_F(RecordingRoundTrip, TheTruthMovesNoArrival) {
+  test::KinematicWorld world(small_world());
+  std::vector<Delivery> written = walk(world);
+  for (Delivery& each : written) {
+    // The recorder's clock leaps forward by 8 s.
+    if (each.arrival > 2 * kSecond) each.arrival += 8 * kSecond;
+  }
+  const std::filesystem::path bag = folder_.path() / "walk.bag";
+  record(bag, world.rig(), written, 11 * kSecond);
+  RecordingConfig without;
+  without.topics.truth = "none";
+  auto with_truth = RecordingReader::open(bag, {});
+  auto without_truth = RecordingReader::open(bag, without);
+  ASSERT_TRUE(with_truth && without_truth);
+  const auto expected = test::read_all(*without_truth);
+  const auto read = test::read_all(*with_truth);
+  ASSERT_TRUE(expected && read);
+  test::expect_same_deliveries(*expected, *read);
+  EXPECT_EQ(with_truth->truth().size(), 110U);
 }
 
 TEST_F(RecordingRoundTrip, TruthIsReadAndNotDelivered) {
