@@ -212,8 +212,8 @@ std::string sequences_text(std::span<const ScenarioSeed> sequences) {
 
 std::string search_text(const TuneResult& result) {
   const int generations = result.generation.empty() ? 0 : result.generation.back();
-  return fmt::format("{} points in {} generations of {}, seed {}{}", result.generation.size(),
-                     generations, result.task.plan.optimizer.population,
+  return fmt::format("{} different points in {} generations of {}, seed {}{}",
+                     result.generation.size(), generations, result.task.plan.optimizer.population,
                      result.task.plan.optimizer.seed, result.converged ? ", converged" : "");
 }
 

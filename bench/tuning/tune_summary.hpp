@@ -19,7 +19,7 @@ namespace aims {
 /// "3 sequences: corridor, severity_5; seeds 1 2 3".
 std::string sequences_text(std::span<const ScenarioSeed> sequences);
 
-/// "90 points in 8 generations of 10, seed 1".
+/// "90 different points in 8 generations of 10, seed 1".
 std::string search_text(const TuneResult& result);
 
 /// What the held-out sequences say of the chosen point, in the first objective.
