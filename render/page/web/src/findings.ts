@@ -101,7 +101,7 @@ function worstAlike(list: Finding[]): boolean {
 export function finding(list: Finding[], route: Route): string {
   const known = list.filter((each) => each.percent !== null);
   if (known.length === 0) return withoutLengths(list);
-  const what = route.corridor ? "the corridor's length" : "the distances between its reference points";
+  const what = route.corridor ? "the corridor's length" : "the distances between the reference points";
   const good = known.filter((each) => each.success && each.percent! <= kWrong)
     .sort((a, b) => a.percent! - b.percent!);
   const bad = losers(list);

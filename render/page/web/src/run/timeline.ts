@@ -143,7 +143,7 @@ function choices(data: RunPayload, store: Store): HTMLElement {
     data.localizability
       ? h("label", {}, h("i", { class: "swatch shade" }), "degenerate ", level)
       : null,
-    data.estimators.length > 1 ? h("label", {}, "error axis fits ", scale) : null,
+    data.truth && data.estimators.length > 1 ? h("label", {}, "error axis fits ", scale) : null,
   );
 }
 
