@@ -111,7 +111,8 @@ std::shared_ptr<BagArguments> add_bag_options(Command& command) {
   command.arguments("bag", arguments->files, "Recording: files or folders, merged by record time",
                     Presence::kRequired);
   command.option("--config", arguments->config, "YAML file; its group recording is used");
-  add_settings(command, arguments->shared, "the configuration, e.g. recording.topics.imu=/imu");
+  add_settings(command, arguments->shared, "the configuration, e.g. recording.topics.imu=/imu",
+               kGroupSetting);
   command.flag("--recover", arguments->recover, "Read the intact part of a damaged bag");
   add_json(command, arguments->json);
   return arguments;

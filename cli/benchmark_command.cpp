@@ -94,7 +94,7 @@ void declare_benchmark(Command command, const fs::path& scenarios) {
                    Presence::kRequired);
   command.list("--sequences", arguments->sequences, "Only these, by name");
   add_estimators(command, shared, "those of the profile");
-  add_settings(command, shared, "the profile");
+  add_settings(command, shared, "the profile", kGroupSetting);
   add_out(command, shared, "out/PROFILE-benchmark");
   add_jobs(command, shared);
   add_retry(command, shared);

@@ -168,7 +168,7 @@ void declare_calibrate(Command command, const fs::path& scenarios) {
   add_folder(command, shared);
   add_seeds(command, shared, "that of the scenario");
   add_robot_seed(command, shared);
-  add_settings(command, shared, "scenarios and recordings");
+  add_settings(command, shared, "scenarios and recordings", kGroupSetting);
   add_cache(command, shared);
   add_jobs(command, shared);
   add_overwrite(command, shared);

@@ -87,8 +87,8 @@ std::string unknown_command(const CLI::App& root, std::span<char*> words) {
       }
       std::vector<std::string> names;
       for (const CLI::App* each : below) names.push_back(each->get_name());
-      return fmt::format("unknown command '{}'; expected one of {} (`{} --help` describes them)", word,
-                         fmt::join(names, ", "), path_of(*app));
+      return fmt::format("unknown command '{}'; expected one of {} (`{} --help` describes them)",
+                         word, fmt::join(names, ", "), path_of(*app));
     }
     app = *found;
   }
@@ -194,6 +194,12 @@ void Command::repeatable(const std::string& names, std::vector<std::string>& val
                          const std::string& help, Presence presence) {
   require(app_->add_option(names, values, help + "; repeatable"), presence)
       ->allow_extra_args(false);
+}
+
+void Command::settings(const std::string& names, std::vector<std::string>& values, const char* kind,
+                       const std::string& help) {
+  repeatable(names, values, help);
+  app_->get_option(names)->type_name(kind);
 }
 
 void Command::flag(const std::string& names, bool& value, const std::string& help) {

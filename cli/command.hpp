@@ -25,6 +25,10 @@ struct Limits {
 
 enum class Presence { kOptional, kRequired };
 
+/// What a setting is of: the help shows it, and only keys of a scenario are completed.
+inline constexpr const char* kScenarioSetting = "KEY=VALUE";
+inline constexpr const char* kGroupSetting = "GROUP.KEY=VALUE";  ///< recording, scoring, ...
+
 /// A command of `aims` while it is declared. Options fill variables, which must live until the
 /// action has run; a variable's value before that is the default. An empty value is an error.
 /// `names` is one spelling or several, e.g. "-o,--out".
@@ -56,6 +60,9 @@ class Command {
   /// One value each time; may be given several times.
   void repeatable(const std::string& names, std::vector<std::string>& values,
                   const std::string& help, Presence presence = Presence::kOptional);
+  /// The same, of settings: `kind` is one of those above.
+  void settings(const std::string& names, std::vector<std::string>& values, const char* kind,
+                const std::string& help);
   void flag(const std::string& names, bool& value, const std::string& help);
   /// Makes giving both an error.
   void exclude(const std::string& name, const std::string& other);

@@ -5,8 +5,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <vector>
+
+#include "cli/command.hpp"
 
 namespace aims {
 namespace {
@@ -16,12 +17,6 @@ constexpr const char* kScenarios = "@scenarios";
 constexpr const char* kEstimators = "@estimators";
 constexpr const char* kKeys = "@keys";
 constexpr const char* kFlag = "@flag";
-
-/// Commands whose --set takes keys of a recording, not of a scenario.
-bool is_of_recordings(const std::string& path) {
-  constexpr std::array kNames = {"estimate", "score", "info", "check", "benchmark", "calibrate"};
-  return std::ranges::find(kNames, path) != kNames.end();
-}
 
 std::vector<std::string> names_of(const CLI::Option& option) {
   std::vector<std::string> names;
@@ -43,7 +38,7 @@ std::string values_of(const CLI::Option& option) {
   }
   const std::string name = option.get_single_name();
   if (name == "scenario" || name == "scenarios" || name == "source") return kScenarios;
-  if (name == "set") return kKeys;
+  if (type == kScenarioSetting) return kKeys;
   if (name == "estimators" || name == "estimator" || name == "baselines") return kEstimators;
   return "";
 }
@@ -61,8 +56,7 @@ std::string branch(const std::string& patterns, const std::string& words) {
 
 void add_option(const CLI::Option& option, const std::string& path, std::string& words,
                 std::string& options, Cases& cases) {
-  std::string values = values_of(option);
-  if (values == kKeys && is_of_recordings(path)) values.clear();
+  const std::string values = values_of(option);
   const std::vector<std::string> names = names_of(option);
   if (names.empty()) {
     if (!values.empty()) words += (words.empty() ? "" : " ") + values;

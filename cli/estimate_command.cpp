@@ -169,7 +169,7 @@ void declare_estimate(Command command, const fs::path& /*scenarios*/) {
                "lidar, imu, leg_odometry, joint_states, contacts, truth");
   add_estimators(command, shared, "aims_d");
   add_calibration(command, shared);
-  add_settings(command, shared, "the configuration");
+  add_settings(command, shared, "the configuration", kGroupSetting);
   add_out(command, shared, "out/NAME-estimate");
   add_overwrite(command, shared);
   add_jobs(command, shared);

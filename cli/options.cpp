@@ -66,9 +66,10 @@ void add_estimators(Command& command, SharedOptions& options, const std::string&
                   absent));
 }
 
-void add_settings(Command& command, SharedOptions& options, const std::string& on) {
-  command.repeatable("--set", options.settings,
-                     fmt::format("key=value, or @FILE of such keys, on top of\n{}", on));
+void add_settings(Command& command, SharedOptions& options, const std::string& on,
+                  const char* kind) {
+  command.settings("--set", options.settings, kind,
+                   fmt::format("A setting, or @FILE of settings, on top of\n{}", on));
 }
 
 void add_param(Command& command, SharedOptions& options, const std::string& forms) {

@@ -58,7 +58,9 @@ void add_calibration(Command& command, SharedOptions& options);
 /// --estimators; likewise.
 void add_estimators(Command& command, SharedOptions& options, const std::string& absent);
 /// --set.
-void add_settings(Command& command, SharedOptions& options, const std::string& on = "the scenario");
+/// `kind`: kGroupSetting where the keys are not those of a scenario.
+void add_settings(Command& command, SharedOptions& options, const std::string& on = "the scenario",
+                  const char* kind = kScenarioSetting);
 /// --param.
 void add_param(Command& command, SharedOptions& options, const std::string& forms);
 /// --out; `absent` names the folder without it.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <memory>
 #include <string>
@@ -25,6 +26,8 @@ struct PageArguments {
   std::string detectors;
   SharedOptions shared;
 };
+
+bool is_terminal() { return isatty(STDERR_FILENO) != 0; }
 
 void print_pages(const WrittenPages& written) {
   for (const std::string& warning : written.warnings) print_out("warning: {}\n", warning);
@@ -64,7 +67,7 @@ int page_command(const PageArguments& arguments) {
 }  // namespace
 
 void write_pages_of(const fs::path& folder, bool quiet) {
-  DrawDisplay display(quiet);
+  DrawDisplay display(quiet || !is_terminal());  // elsewhere the line "page: ..." is enough
   const auto written = write_pages(folder, {}, display.observer());
   display.close();
   if (written) {
@@ -75,7 +78,7 @@ void write_pages_of(const fs::path& folder, bool quiet) {
 }
 
 Result<void> write_page_of(const fs::path& folder, bool quiet) {
-  DrawDisplay display(quiet);
+  DrawDisplay display(quiet || !is_terminal());
   announce(display.observer(), folder / kPageFile);
   const auto written = write_page(folder, folder / kPageFile);
   if (!written) return failure("no page: " + written.error().message);

@@ -111,8 +111,9 @@ void JobDisplay::show(const JobProgress& progress) {
   const bool due = terminal_ || progress.elapsed_s >= shown_at_s_ + kLineEvery ||
                    progress.done == progress.total;
   if (quiet_ || !due) return;
-  std::string line = fmt::format("{:3.0f} %, {} of {} jobs", std::floor(100.0 * progress.fraction),
-                                 progress.done, progress.total);
+  std::string line =
+      fmt::format("{:3.0f} %, {} of {}{} jobs", std::floor(100.0 * progress.fraction),
+                  progress.done, progress.at_most ? "at most " : "", progress.total);
   if (progress.failed > 0) line += fmt::format(", {} failed", progress.failed);
   if (progress.sequences > 0) line += fmt::format(", {} sequences simulated", progress.sequences);
   if (line == shown_ && !terminal_) return;
@@ -129,6 +130,11 @@ namespace {
 
 constexpr const char* kClearLine = "\r\x1b[K";
 
+/// The name that a folder gets when all is in it (core/files/output_folder.hpp).
+std::filesystem::path final_name(std::filesystem::path folder) {
+  return folder.extension() == ".partial" ? folder.replace_extension() : folder;
+}
+
 }  // namespace
 
 DrawDisplay::DrawDisplay(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
@@ -139,12 +145,13 @@ DrawObserver DrawDisplay::observer() {
 
 void DrawDisplay::show(const std::filesystem::path& file) {
   if (quiet_) return;
+  const std::filesystem::path folder = final_name(file.parent_path());
   if (terminal_) {
     std::fputs(kClearLine, stderr);
-    write_terminal(stderr, "drawing " + name_text(file.string()));
+    write_terminal(stderr, "drawing " + name_text((folder / file.filename()).string()));
     open_ = true;
-  } else if (file.parent_path() != folder_) {
-    folder_ = file.parent_path();
+  } else if (folder != folder_) {
+    folder_ = folder;
     print_error("drawing " + folder_.string());
   }
   std::fflush(stderr);

@@ -136,7 +136,7 @@ void declare_score(Command command, const fs::path& /*scenarios*/) {
   SharedOptions& shared = arguments->shared;
   shared.out = "out/score";
   add_inputs(command, *arguments);
-  add_settings(command, shared, "the configuration: keys of scoring");
+  add_settings(command, shared, "the configuration: keys of scoring", kGroupSetting);
   add_out(command, shared, "out/score");
   add_overwrite(command, shared);
   command.flag("--evo", arguments->evo, "Write NAME.evo.zip, which evo_res reads");

@@ -72,15 +72,15 @@ Result<TuneResult> work(const SharedOptions& shared, const TuneTask& task) {
 /// Prints where the values of --apply are and whether to use them.
 void print_applied(const TuneResult& result, const std::string& file) {
   if (verdict_of(held_out_gain(result)) == Verdict::kUseThem) {
-    print_out("tuned values: {0}; to use them: --set @{0}\n", file);
+    print_out("written: {0}; to use the values: --set @{0}\n", file);
   } else {
-    print_out("tuned values: {} ({})\n", file, held_out_verdict(result));
+    print_out("written: {}; see the verdict before you use the values\n", file);
   }
 }
 
 /// The verdict, what the objective is, and the figures of both kinds of sequences.
 void print_outcome(const TuneResult& result) {
-  print_out("tuned values: {}\n", held_out_verdict(result));
+  for (const std::string& line : verdict_lines(result)) print_out("{}\n", line);
   if (!result.earlier_looks.empty()) {
     print_out("warning: {}\n", looks_text(result.earlier_looks.size()));
   }
@@ -92,6 +92,7 @@ void print_outcome(const TuneResult& result) {
   for (const Objective& each : result.task.plan.objectives) {
     print_out("objective: {}\n", text_of(each));
   }
+  print_out("search: {}\n", search_text(result));
 }
 
 Result<Answer> finish(const TuneArguments& arguments, TuneResult& result) {

@@ -43,6 +43,7 @@ struct JobProgress {
   std::size_t done = 0;       ///< of this invocation, failures included
   std::size_t failed = 0;     ///< of them
   std::size_t total = 0;      ///< without those that were found finished
+  bool at_most = false;       ///< the work may end before the total
   std::size_t sequences = 0;  ///< simulated
   double fraction = 0.0;      ///< of all work, what is under way included, in [0, 1]
   double elapsed_s = 0.0;

@@ -33,7 +33,8 @@ Json health_json(const HealthSummary& summary) {
           {"healthy_s", summary.healthy_s},
           {"degraded_s", summary.degraded_s},
           {"invalid_s", summary.invalid_s},
-          {"reasons", reasons_text(summary)}};
+          {"reasons", reasons_text(summary)},
+          {"text", text_of(summary)}};
 }
 
 std::string text_of(const HealthSummary& summary) {
@@ -41,7 +42,7 @@ std::string text_of(const HealthSummary& summary) {
   if (summary.worst == HealthState::kStarting) return "never started";
   std::vector<std::string> states;
   if (summary.invalid_s > 0.0 || summary.worst == HealthState::kInvalid) {
-    states.push_back(fmt::format("INVALID for {:.1f} s", summary.invalid_s));
+    states.push_back(fmt::format("invalid for {:.1f} s", summary.invalid_s));
   }
   if (summary.degraded_s > 0.0 || summary.worst == HealthState::kDegraded) {
     states.push_back(fmt::format("degraded for {:.1f} s", summary.degraded_s));
@@ -59,8 +60,8 @@ std::vector<std::string> health_lines(const RunRecord& run) {
     if (health == scores.end()) continue;
     const std::string worst = value_in(*health, "worst", "");
     if (worst == name_of(HealthState::kHealthy) || worst == kNotJudged) continue;
-    lines.push_back(fmt::format("{} seed {}: {} ({})", name, run.seed, worst,
-                                value_in(*health, "reasons", "")));
+    lines.push_back(
+        fmt::format("{} seed {}: {}", name, run.seed, value_in(*health, "text", worst)));
   }
   return lines;
 }

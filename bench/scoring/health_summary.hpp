@@ -15,12 +15,12 @@ namespace aims {
 /// The summary with the keys of its members; see docs/result-files.md.
 Json health_json(const HealthSummary& summary);
 
-/// "degraded 3.2 s (no leg odometry 3.2 s)"; empty for an estimate that was healthy all along or
-/// not judged.
+/// "degraded for 3.2 s (no leg odometry 3.2 s)"; empty for an estimate that was healthy all along
+/// or not judged.
 std::string text_of(const HealthSummary& summary);
 
-/// "lio seed 1: degraded (no leg odometry 3.2 s)" for each estimator of a run that was not
-/// healthy all along; none for records without health, or not judged.
+/// "lio seed 1: degraded for 3.2 s (no leg odometry 3.2 s)" for each estimator of a run that was
+/// not healthy all along; none for records without health, or not judged.
 std::vector<std::string> health_lines(const RunRecord& run);
 
 /// A row per health row: stamp_s, state, reasons, position_sigma_m.

@@ -12,6 +12,7 @@ JobProgress BatchProgress::overall(std::size_t jobs, const JobProgress& batch) {
   JobProgress all = batch;
   all.done = before_ + found + batch.done;
   all.total = total;
+  all.at_most = total > before_ + jobs;
   all.failed = ended_.failed + batch.failed;
   all.sequences = ended_.sequences + batch.sequences;
   fraction_ = std::max(fraction_, (double(before_ + found) + now) / static_cast<double>(total));

@@ -127,6 +127,14 @@ std::string full_key(const ParameterRange& range) {
   return range.key.starts_with(kScenario) ? range.key.substr(kScenario.size()) : range.key;
 }
 
+Range allowed_values(const ParameterRange& range) {
+  EstimatorConfigs configs;
+  Deciding deciding;
+  const Fields fields = range.of_estimator ? estimator_fields(configs) : fields_of(deciding);
+  const Parameter* parameter = fields.find(range.of_estimator ? range.key : full_key(range));
+  return parameter == nullptr ? any() : parameter->spec.range;
+}
+
 Result<std::vector<ParameterRange>> parse_ranges(std::span<const std::string> texts,
                                                  std::span<const std::string> estimators) {
   const bool in_python = std::ranges::any_of(estimators, [](const std::string& text) {

@@ -8,6 +8,7 @@
 
 #include "bench/scenario/scenario.hpp"
 #include "bench/tuning/design.hpp"
+#include "core/config.hpp"
 #include "core/error.hpp"
 
 namespace aims {
@@ -28,6 +29,9 @@ Result<RangeKey> range_key(std::string_view given, bool in_python = false);
 
 /// The full key in a scenario of a range whose key is the `name` of a `RangeKey`.
 std::string full_key(const ParameterRange& range);
+
+/// What the parameter that is varied may be; anything for one that only an estimator in Python has.
+Range allowed_values(const ParameterRange& range);
 
 /// Reads ranges, with their keys as results name them, of estimators with these specs.
 Result<std::vector<ParameterRange>> parse_ranges(std::span<const std::string> texts,

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "bench/metrics/statistics.hpp"
+#include "bench/tuning/values_text.hpp"
 
 namespace aims {
 namespace {
@@ -189,6 +190,8 @@ std::string response_markdown(const ResponseTable& table, const Objective& objec
       figure_text(best->objective, best->objective_interval), objective.score,
       figure_text(median(scores_of(table.runs[best->point], cases_of(table, "")))),
       figure_text(best->defaults));
+  text +=
+      fmt::format("Best values: {}.\n", values_text(table.ranges, table.defaults, best->values));
   if (best->defaults_diverged) text += fmt::format("No gain: {}.\n", kNoGain);
   if (best->gain) {
     text += fmt::format("Reduction by {} on these sequences, among which the best was chosen.\n",

@@ -52,7 +52,7 @@ std::string overlay_text(const TuneResult& result) {
   std::string text =
       fmt::format("# Values of `{}` by aims tune; on top of any scenario: --set @FILE\n",
                   text_of(task.estimator));
-  text += fmt::format("# {}\n", held_out_verdict(result));
+  for (const std::string& line : verdict_lines(result)) text += fmt::format("# {}\n", line);
   text += fmt::format("# objective: {}\n", text_of(task.plan.objectives.front()));
   const PairedGain tuned =
       paired_gain(result.tables.front(), task.plan.objectives.front(), result.chosen.front());

@@ -11,6 +11,7 @@
 #include "bench/scoring/score_record.hpp"
 #include "bench/tuning/response_summary.hpp"
 #include "bench/tuning/tune_overlay.hpp"
+#include "bench/tuning/values_text.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/csv.hpp"
 
@@ -42,9 +43,13 @@ std::string looks_markdown(const TuneResult& result) {
                      fmt::join(result.earlier_looks, "\n- "));
 }
 
+/// Of the chosen point; of several the first.
+const std::vector<double>& chosen_values(const TuneResult& result) {
+  return result.tables.front().points[result.chosen.front()];
+}
+
 std::string settings_text(const TuneResult& result) {
-  EstimatorSpec spec =
-      estimator_at(result.task, result.tables.front().points[result.chosen.front()]);
+  EstimatorSpec spec = estimator_at(result.task, chosen_values(result));
   spec.label = "tuned";
   return fmt::format("\nAs an estimator beside others:\n\n    --estimators {},{}\n",
                      text_of(result.task.estimator), text_of(spec));
@@ -72,7 +77,7 @@ std::string markdown_of(const TuneResult& result) {
   std::string text = fmt::format("# Tuning `{}`\n\n", text_of(task.estimator));
   if (!result.complete) text += "**Interrupted: only finished points are included.**\n\n";
   if (!result.chosen.empty()) {
-    text += fmt::format("**Tuned values: {}.**\n\n", held_out_verdict(result));
+    for (const std::string& line : verdict_lines(result)) text += fmt::format("**{}.**\n\n", line);
     if (!result.earlier_looks.empty()) text += looks_markdown(result);
     if (defaults_all_diverged(result.tables.front())) {
       text += fmt::format("**On the sequences tuned on, {}.**\n\n", kNoGain);
@@ -207,14 +212,25 @@ std::string sequences_text(std::span<const ScenarioSeed> sequences) {
 
 std::string search_text(const TuneResult& result) {
   const int generations = result.generation.empty() ? 0 : result.generation.back();
-  return fmt::format("{} points in {} generations of {}, seed {}{}", result.generation.size(),
-                     generations, result.task.plan.optimizer.population,
+  return fmt::format("{} different points in {} generations of {}, seed {}{}",
+                     result.generation.size(), generations, result.task.plan.optimizer.population,
                      result.task.plan.optimizer.seed, result.converged ? ", converged" : "");
 }
 
 PairedGain held_out_gain(const TuneResult& result) {
   if (result.held_out.empty()) return {};
   return paired_gain(result.held_out.front(), result.task.plan.objectives.front(), 0);
+}
+
+std::vector<std::string> verdict_lines(const TuneResult& result) {
+  std::vector<std::string> lines;
+  if (result.tables.size() == 1) {
+    const TuneTask& task = result.task;
+    lines.push_back("tuned values: " +
+                    values_text(task.ranges, task.defaults, chosen_values(result)));
+  }
+  lines.push_back("verdict: " + held_out_verdict(result));
+  return lines;
 }
 
 std::string held_out_verdict(const TuneResult& result) {

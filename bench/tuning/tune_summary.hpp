@@ -19,11 +19,15 @@ namespace aims {
 /// "3 sequences: corridor, severity_5; seeds 1 2 3".
 std::string sequences_text(std::span<const ScenarioSeed> sequences);
 
-/// "90 points in 8 generations of 10, seed 1".
+/// "90 different points in 8 generations of 10, seed 1".
 std::string search_text(const TuneResult& result);
 
 /// What the held-out sequences say of the chosen point, in the first objective.
 PairedGain held_out_gain(const TuneResult& result);
+
+/// The values found and the verdict of the held-out sequences, a line each; of several objectives
+/// the verdict alone, since there are several points. Expects a chosen point.
+std::vector<std::string> verdict_lines(const TuneResult& result);
 
 /// What they say in words, as `verdict_text`, or as `front_verdict` of several objectives; of a
 /// tuning that was interrupted before them, so.

@@ -54,7 +54,8 @@ struct PcapReader::Impl {
 
 void PcapReader::Impl::note_payload(std::span<const std::byte> payload) {
   if (sizes.size() < 100) ++sizes[payload.size()];
-  if (const std::string lidar = lidar_of_packet(payload); !lidar.empty()) ++lidars[lidar];
+  const std::string sender = lidar_of_packet(payload);
+  if (!sender.empty()) ++lidars[sender];
 }
 
 /// Whether the packet is none of another LiDAR; one that is captured twice, on its way to a relay

@@ -272,7 +272,8 @@ void RecordingSurvey::warn_of_odometry(const std::string& type) {
   const std::string& topic = topics_.leg_odometry;
   if (!config_.topics.leg_odometry.empty() || type != "nav_msgs/Odometry") return;
   if (topic == kLegOdometryTopic) return;
-  notes_.push_back(fmt::format("leg odometry: {}, the only nav_msgs/Odometry", topic));
+  notes_.push_back(
+      fmt::format("leg odometry: {}, the only nav_msgs/Odometry not named as a truth", topic));
   const auto named = [&](std::string_view part) { return topic.find(part) != std::string::npos; };
   if (named("leg") || std::ranges::none_of(kEstimators, named)) return;
   notes_.warn("leg odometry is perhaps of another estimator",

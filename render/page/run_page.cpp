@@ -69,9 +69,25 @@ Json command_json(const RunFolder& run) {
   return fmt::format("aims run config.yaml{}", seeds);
 }
 
+/// "mine, theirs against truth": of scores of any system, whose scenario is the truth's name.
+std::string name_of_scores(const Json& scores, const std::string& truth) {
+  constexpr std::size_t kMost = 3;
+  const Json estimators = member(scores, "estimators");
+  std::string names;
+  std::size_t count = 0;
+  for (const auto& [name, each] : estimators.items()) {
+    if (++count <= kMost) names += (names.empty() ? "" : ", ") + name;
+  }
+  if (count > kMost) names += fmt::format(" and {} more", count - kMost);
+  return fmt::format("{} against {}", names, truth);
+}
+
 std::string name_of(const RunFolder& run) {
   if (run.scenario) return run.scenario->name;
   const Json scenario = member(run.scores, "scenario");
+  if (scenario.is_string() && is_foreign(run)) {
+    return name_of_scores(run.scores, scenario.get<std::string>());
+  }
   if (scenario.is_string()) return scenario.get<std::string>();
   const Json bag = member(run.estimate, "bag");
   return bag.is_string() ? fs::path(bag.get<std::string>()).stem().string() : "run";

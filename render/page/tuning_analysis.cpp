@@ -11,6 +11,7 @@
 #include "bench/tuning/held_out.hpp"
 #include "bench/tuning/sensitivity.hpp"
 #include "bench/tuning/slice.hpp"
+#include "bench/tuning/values_text.hpp"
 
 namespace aims {
 namespace {
@@ -29,8 +30,9 @@ Json intervals_json(const std::vector<Interval>& intervals) {
   return json;
 }
 
-Json best_json(const BestPoint& best) {
+Json best_json(const ResponseTable& table, const BestPoint& best) {
   return {{"values", best.values},
+          {"text", values_text(table.ranges, table.defaults, best.values)},
           {"between", intervals_json(best.between)},
           {"objective", json_of(best.objective)},
           {"objective_interval", interval_json(best.objective_interval)},
@@ -77,14 +79,14 @@ Json sensitivity_json(const Sensitivity& sensitivity, std::size_t parameters) {
 /// Null for none.
 Json points_json(const std::vector<SlicePoint>& points, bool has_y, PageData& page) {
   if (points.empty()) return {};
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> x, y, value, low, high;
   for (const SlicePoint& point : points) {
     x.push_back(point.x);
     y.push_back(point.y);
-    value.push_back(point.objective.value_or(kNone));
-    low.push_back(point.interval.low.value_or(kNone));
-    high.push_back(point.interval.high.value_or(kNone));
+    value.push_back(point.objective.value_or(kNoValue));
+    low.push_back(point.interval.low.value_or(kNoValue));
+    high.push_back(point.interval.high.value_or(kNoValue));
   }
   Json json = {{"x", page.f32(x)}, {"value", page.f32(value)}};
   if (has_y) json["y"] = page.f32(y);
@@ -178,7 +180,7 @@ Json analysis_json(const ResponseTable& table, const Objective& objective, PageD
     json["why_no_best"] = best.error().message;
     return json;
   }
-  json["best"] = best_json(*best);
+  json["best"] = best_json(table, *best);
   const auto sensitivity = sensitivity_of(table, objective);
   if (table.ranges.size() == 1) {
     json["why_no_sensitivity"] = kOneParameter;

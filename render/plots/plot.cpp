@@ -98,8 +98,8 @@ void draw_own_legend(Canvas& canvas, const Rect& area, const Panel& panel) {
 
 /// A line without a dot at its end: the break separates enough.
 std::string without_separator(std::string line) {
-  constexpr std::string_view kDot = "\u00b7";
-  if (line.ends_with(kDot)) line.resize(line.size() - kDot.size());
+  constexpr std::string_view kMiddleDot = "\u00b7";
+  if (line.ends_with(kMiddleDot)) line.resize(line.size() - kMiddleDot.size());
   line.erase(line.find_last_not_of(' ') + 1);
   return line;
 }

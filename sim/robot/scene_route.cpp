@@ -18,8 +18,8 @@ constexpr double kLongestChord = 1.25;  ///< of a tunnel's arc [m]
 std::vector<RoutePoint> from_a_to_b(const std::vector<Eigen::Vector2d>& points) {
   std::vector<RoutePoint> route;
   for (const Eigen::Vector2d& point : points) route.push_back({"", point.x(), point.y()});
-  route.front().name = "a";
-  route.back().name = "b";
+  route.front().name = std::string("a");  // GCC 12 warns of a literal
+  route.back().name = std::string("b");
   return route;
 }
 

@@ -32,6 +32,10 @@ TEST_F(Pages, AreWrittenByEstimateAndScore) {
   const Outcome scored = aims(score + "--out score");
   EXPECT_EQ(scored.exit_code, 0) << scored.output;
   EXPECT_TRUE(holds(scored, "page: score/page.html")) << scored.output;
+  EXPECT_TRUE(holds(scored, "drawing score\n")) << scored.output;
+  EXPECT_EQ(scored.output.find("drawing "), scored.output.rfind("drawing ")) << scored.output;
+  EXPECT_NE(read_file(folder_.path() / "score/page.html").value().find("my leg against truth"),
+            std::string::npos);
   EXPECT_TRUE(exists("score/my leg.tum")) << "which the page shows";
   EXPECT_EQ(aims(score + "--out score --overwrite --no-page").exit_code, 0);
   EXPECT_FALSE(exists("score/page.html")) << "it is a file of ours, so it is removed";

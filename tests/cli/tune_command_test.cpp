@@ -60,7 +60,10 @@ TEST_F(Tunes, WriteValuesThatARunTakes) {
   EXPECT_TRUE(holds(tuned, "\nobjective: ")) << tuned.output;
   EXPECT_TRUE(holds(tuned, "nothing can be concluded from one held-out sequence")) << tuned.output;
   EXPECT_FALSE(holds(tuned, "to use them: --set")) << tuned.output;
-  EXPECT_LT(tuned.output.find("tuned values: "), tuned.output.find("tuned on")) << "it leads";
+  EXPECT_TRUE(holds(tuned, "\nverdict: ")) << tuned.output;
+  EXPECT_TRUE(holds(tuned, "search: ")) << tuned.output;
+  EXPECT_LT(tuned.output.find("tuned values: queue.max_ahead "), tuned.output.find("tuned on"))
+      << "it leads";
   for (const char* name : {"tune.md", "tune.csv", "tuned.yaml", "tune.yaml", "page.html"}) {
     EXPECT_TRUE(fs::exists(folder_.path() / "out" / name)) << name;
   }

@@ -89,16 +89,16 @@ RC_GTEST_PROP(So3, LogIsTheSameForBothSignsOfTheQuaternion, ()) {
 }
 
 TEST(So3, RightJacobianMatchesFiniteDifferences) {
-  constexpr double kStep = 1e-6;
+  constexpr double kDelta = 1e-6;
   for (const double angle : kAngles) {
     for (const Eigen::Vector3d& axis : kAxes) {
       const Eigen::Vector3d phi = angle * axis;
       Eigen::Matrix3d numeric;
       for (int i = 0; i < 3; ++i) {
-        const Eigen::Vector3d d = kStep * Eigen::Vector3d::Unit(i);
+        const Eigen::Vector3d d = kDelta * Eigen::Vector3d::Unit(i);
         const Eigen::Quaterniond base = so3_exp(phi).conjugate();
         numeric.col(i) =
-            (so3_log(base * so3_exp(phi + d)) - so3_log(base * so3_exp(phi - d))) / (2.0 * kStep);
+            (so3_log(base * so3_exp(phi + d)) - so3_log(base * so3_exp(phi - d))) / (2.0 * kDelta);
       }
       EXPECT_LT((numeric - so3_right_jacobian(phi)).norm(), 1e-8) << angle;
     }

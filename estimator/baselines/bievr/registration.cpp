@@ -37,7 +37,7 @@ double cost_at(const BumpMap& map, const Pose& T_world_body,
   return cost;
 }
 
-enum class Outcome { kMoved, kConverged, kStuck };
+enum class Outcome { kMoved, kAtMinimum, kStuck };
 
 /// One accepted step, or none that lowers the cost. `damping` is added to the diagonal of the
 /// Hessian; negative: not known yet.
@@ -58,14 +58,14 @@ Outcome step(const BumpMap& map, std::span<const Eigen::Vector3d> points,
     const double gain = linear.cost - cost_at(map, next, points, config);
     const double ratio = gain / delta.dot(damping * delta - linear.gradient);
     if (ratio < 0.0) {
-      if (is_small(change, config)) return Outcome::kConverged;
+      if (is_small(change, config)) return Outcome::kAtMinimum;
       damping *= growth;
       growth *= 2.0;
       continue;
     }
     result.T_world_body = next;
     damping *= std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * ratio - 1.0, 3));
-    return is_small(change, config) ? Outcome::kConverged : Outcome::kMoved;
+    return is_small(change, config) ? Outcome::kAtMinimum : Outcome::kMoved;
   }
   return Outcome::kStuck;
 }
@@ -119,7 +119,7 @@ Registered registered(const BumpMap& map, const Pose& start,
     if (result.last.used == 0) return result;
     if (outcome == Outcome::kStuck) return result;
     ++result.iterations;
-    if (outcome == Outcome::kConverged) {
+    if (outcome == Outcome::kAtMinimum) {
       result.converged = true;
       return result;
     }

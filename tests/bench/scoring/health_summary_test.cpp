@@ -28,7 +28,7 @@ TEST(HealthSummary, CountsTheTimeOfEachStateAndReasonAfterTheStart) {
 
 TEST(HealthSummary, TextNamesStatesAndTheLongestReasonFirst) {
   EXPECT_EQ(text_of(health_summary(rows())),
-            "INVALID for 3.0 s, degraded for 2.0 s (no leg odometry 5.0 s, no LiDAR scans 3.0 s)");
+            "invalid for 3.0 s, degraded for 2.0 s (no leg odometry 5.0 s, no LiDAR scans 3.0 s)");
   EXPECT_EQ(text_of(health_summary({{0, HealthState::kHealthy, {}, 0.0}})), "");
   EXPECT_EQ(text_of(health_summary({{0, HealthState::kStarting, {}, 0.0}})), "never started");
   EXPECT_EQ(text_of(health_summary({})), "");  // a system that does not judge itself
@@ -43,7 +43,8 @@ TEST(HealthSummary, LinesNameTheEstimatorsThatWereNotHealthy) {
   run.scores["estimators"]["older"]["ate_m"] = 0.1;
   EXPECT_EQ(health_lines(run),
             std::vector<std::string>{
-                "lio seed 3: invalid (no leg odometry 5.0 s, no LiDAR scans 3.0 s)"});
+                "lio seed 3: invalid for 3.0 s, degraded for 2.0 s (no leg odometry 5.0 s, no "
+                "LiDAR scans 3.0 s)"});
 }
 
 TEST(HealthSummary, TableHasARowPerChange) {

@@ -13,8 +13,10 @@
 #include "bench/tuning/analysis.hpp"
 #include "bench/tuning/batch_progress.hpp"
 #include "bench/tuning/held_out.hpp"
+#include "bench/tuning/range_key.hpp"
 #include "bench/tuning/tune_overlay.hpp"
 #include "bench/tuning/tune_summary.hpp"
+#include "bench/tuning/values_text.hpp"
 #include "core/files/yaml_config.hpp"
 #include "core/random.hpp"
 #include "estimator/degeneracy/degeneracy.hpp"
@@ -226,7 +228,8 @@ TEST(Tune, TwoObjectivesGiveAFront) {
   const TextTable front = front_table(*result);
   EXPECT_EQ(front.rows.size(), result->chosen.size() + 1);
   EXPECT_EQ(front.header.size(), 3U + 4U + 1U);
-  EXPECT_NE(held_out_verdict(*result).find("front"), std::string::npos) << held_out_verdict(*result);
+  EXPECT_NE(held_out_verdict(*result).find("front"), std::string::npos)
+      << held_out_verdict(*result);
 }
 
 TEST(FrontVerdict, IsBetterOnlyIfNoObjectiveIsWorse) {
@@ -266,6 +269,31 @@ TEST(TuneReport, OverlayLoadsOnTopOfAScenario) {
   EXPECT_EQ(test::number(scenario->estimators, "aims.degeneracy.kappa"), best[1]);
   EXPECT_EQ(test::number(scenario->estimators, "aims.degeneracy.alpha"), best[2]);
   EXPECT_EQ(test::number(scenario->estimators, "aims.degeneracy.w1"), DegeneracyConfig{}.w1);
+  const std::string text = overlay_text(*result);
+  EXPECT_TRUE(says(text, "\n# tuned values: degeneracy.eta ")) << text;
+  EXPECT_TRUE(says(text, "\n# verdict: use them: ")) << text;
+}
+
+TEST(TuneReport, SaysWhichValueLiesAtAnEdgeOfItsRange) {
+  const auto text = [](const std::string& range, double value) {
+    const auto ranges = parse_ranges(std::vector<std::string>{range}, {});
+    EXPECT_TRUE(ranges);
+    return values_text(*ranges, std::vector<double>{3.0}, std::vector<double>{value});
+  };
+  EXPECT_EQ(text("degeneracy.eta=0:20", 1.25), "degeneracy.eta 1.25 instead of 3");
+  EXPECT_EQ(text("degeneracy.eta=0:20", 3.0), "degeneracy.eta 3 as by default");
+  EXPECT_EQ(text("degeneracy.eta=1:20", 1.13),
+            "degeneracy.eta 1.13 instead of 3 (at the lower edge of its range 1 to 20: the optimum "
+            "may lie outside)");
+  EXPECT_EQ(text("degeneracy.eta=0:20", 19.9),
+            "degeneracy.eta 19.9 instead of 3 (at the upper edge of its range 0 to 20: the optimum "
+            "may lie outside)");
+  EXPECT_EQ(text("degeneracy.eta=0:20", 0.13),
+            "degeneracy.eta 0.13 instead of 3 (at the lower edge of its range 0 to 20: no smaller "
+            "value is allowed)");
+  EXPECT_EQ(text("links.lidar.loss=0.1:0.5", 0.1),
+            "links.lidar.loss 0.1 instead of 3 (at the lower edge of its range 0.1 to 0.5: the "
+            "optimum may lie outside)");
 }
 
 TEST(TuneReport, WholeNumbersStayWhole) {
@@ -339,8 +367,10 @@ TEST(Tune, ProgressOfAllBatchesNeverFalls) {
   whole.end(2, {.done = 2});
   EXPECT_DOUBLE_EQ(step(4, 1, 0).fraction, 0.3) << "one was found finished";
   EXPECT_EQ(step(4, 1, 3).done, 6U);
+  EXPECT_TRUE(step(4, 1, 3).at_most) << "the search may converge";
   whole.end(4, {.done = 3});
   EXPECT_EQ(step(4, 0, 0).total, 10U);
+  EXPECT_FALSE(step(4, 0, 0).at_most);
   EXPECT_DOUBLE_EQ(step(4, 0, 4).fraction, 1.0);
 }
 
@@ -352,11 +382,13 @@ TEST(TuneReport, SaysWhetherTheGainHolds) {
     return std::string{std::istreambuf_iterator<char>(stream), {}};
   };
   const std::string holds = report({});
-  EXPECT_TRUE(says(holds, "**Tuned values: use them: ")) << holds;
+  EXPECT_TRUE(says(holds, "**verdict: use them: ")) << holds;
+  EXPECT_TRUE(says(holds, "**tuned values: degeneracy.eta ")) << holds;
+  EXPECT_TRUE(says(holds, " instead of 3, degeneracy.kappa ")) << holds;
   EXPECT_LT(holds.find("use them: "), holds.find("- objective")) << "the verdict leads";
   EXPECT_FALSE(says(holds, "`degeneracy.eta` does not matter")) << holds;
   const std::string overfit = report({.overfit = true});
-  EXPECT_TRUE(says(overfit, "**Tuned values: do not use them: ")) << overfit;
+  EXPECT_TRUE(says(overfit, "**verdict: do not use them: ")) << overfit;
   EXPECT_TRUE(says(overfit, "worse on 8 held-out sequences (95 % interval")) << overfit;
 }
 

@@ -43,13 +43,14 @@ TEST(ErrorState, PerturbsTheMountOnTheLeftAndTheDelayAsANumber) {
 }
 
 TEST(ErrorState, ItsBlocksCoverItOnce) {
-  using E = ErrorState;
+  using State = ErrorState;
   ErrorVector covered = ErrorVector::Zero();
-  for (const E::Block each : {E::kRotation, E::kPosition, E::kVelocity, E::kGyroBias,
-                              E::kAccelerometerBias, E::kLegScale, E::kLegBias, E::kMount}) {
+  for (const State::Block each :
+       {State::kRotation, State::kPosition, State::kVelocity, State::kGyroBias,
+        State::kAccelerometerBias, State::kLegScale, State::kLegBias, State::kMount}) {
     segment(covered, each).array() += 1.0;
   }
-  covered(E::kDelay) += 1.0;
+  covered(State::kDelay) += 1.0;
   EXPECT_EQ(covered, ErrorVector::Ones());
 }
 

@@ -46,49 +46,49 @@ TEST(ImuNoise, WhiteNoiseHasItsDensityAtAnyRate) {
 }
 
 TEST(ImuNoise, ATrotIsNoWhiteNoise) {
-  constexpr double kRate = 50.0;
-  constexpr double kSway = 0.3;  // [rad/s]
-  constexpr double kBob = 1.5;   // [m/s^2]
-  ImuNoise noise(kRate);
+  constexpr double kSampleRate = 50.0;
+  constexpr double kSwayRate = 0.3;  // [rad/s]
+  constexpr double kBob = 1.5;       // [m/s^2]
+  ImuNoise noise(kSampleRate);
   double worst_rate = 0.0;
   double worst_force = 0.0;
   for (int i = 0; i < 500; ++i) {
-    const double phase = 2.0 * M_PI * 2.5 * i / kRate;
-    noise.add({stamp_at(i, kRate),
-               kSway * Eigen::Vector3d(std::sin(phase), std::cos(phase), 0.0),
+    const double phase = 2.0 * M_PI * 2.5 * i / kSampleRate;
+    noise.add({stamp_at(i, kSampleRate),
+               kSwayRate * Eigen::Vector3d(std::sin(phase), std::cos(phase), 0.0),
                {0.0, kBob * std::cos(phase), 9.81 + kBob * std::sin(phase)}});
     worst_rate = std::max(worst_rate, noise.white().rate);
     worst_force = std::max(worst_force, noise.white().force);
   }
   const double deviation = std::sqrt(1.0 / 3.0);  // mean over the axes, of two sines
-  EXPECT_LT(worst_rate, 0.1 * deviation * kSway);
+  EXPECT_LT(worst_rate, 0.1 * deviation * kSwayRate);
   EXPECT_LT(worst_force, 0.1 * deviation * kBob);
 }
 
 TEST(ImuNoise, AVibrationCountsWithinFourSamples) {
-  constexpr double kRate = 50.0;
+  constexpr double kSampleRate = 50.0;
   constexpr int kDraws = 200;
   double gyro = 0.0;
   double force = 0.0;
   for (int draw = 0; draw < kDraws; ++draw) {
     RandomStream random(static_cast<std::uint64_t>(draw), "imu_noise.onset");
-    ImuNoise noise(kRate);
-    for (int i = 0; i < 100; ++i) noise.add(rest_sample(i, kRate));
-    for (int i = 100; i < 104; ++i) noise.add(white_sample(i, kRate, random));
+    ImuNoise noise(kSampleRate);
+    for (int i = 0; i < 100; ++i) noise.add(rest_sample(i, kSampleRate));
+    for (int i = 100; i < 104; ++i) noise.add(white_sample(i, kSampleRate, random));
     gyro += noise.density().gyro / kDraws;
     force += noise.density().accelerometer / kDraws;
   }
-  EXPECT_GT(gyro, 0.5 * kRateSigma / std::sqrt(kRate)) << "seeds 0 to 199";
-  EXPECT_GT(force, 0.5 * kForceSigma / std::sqrt(kRate)) << "seeds 0 to 199";
+  EXPECT_GT(gyro, 0.5 * kRateSigma / std::sqrt(kSampleRate)) << "seeds 0 to 199";
+  EXPECT_GT(force, 0.5 * kForceSigma / std::sqrt(kSampleRate)) << "seeds 0 to 199";
 }
 
 TEST(ImuNoise, LostSamplesAreNoVibration) {
-  constexpr double kRate = 50.0;
-  ImuNoise noise(kRate);
+  constexpr double kSampleRate = 50.0;
+  ImuNoise noise(kSampleRate);
   int at = 0;
   for (int stretch = 0; stretch < 20; ++stretch) {
     for (int i = 0; i < 10; ++i, ++at) {
-      ImuSample sample = rest_sample(at, kRate);
+      ImuSample sample = rest_sample(at, kSampleRate);
       sample.angular_velocity.x() = stretch % 2;
       sample.specific_force.x() = 5.0 * (stretch % 2);
       noise.add(sample);
@@ -101,10 +101,10 @@ TEST(ImuNoise, LostSamplesAreNoVibration) {
 }
 
 TEST(ImuNoise, OneLostSampleIsNoVibration) {
-  constexpr double kRate = 50.0;
-  ImuNoise noise(kRate);
+  constexpr double kSampleRate = 50.0;
+  ImuNoise noise(kSampleRate);
   for (int i = 0; i < 200; ++i) {
-    ImuSample sample = rest_sample(i, kRate);
+    ImuSample sample = rest_sample(i, kSampleRate);
     sample.angular_velocity.x() = 0.2 * i;  // a steady acceleration
     if (i % 7 != 0) noise.add(sample);
   }
@@ -141,20 +141,20 @@ class Axis {
 // The filter's own correction feeds back on the density that it assumes; it must settle at the true
 // one whether the first guess is too large or too small.
 TEST(ImuNoise, CorrectionsLeadToTheShareOfTheWhitePartThatIsNoise) {
-  constexpr double kRate = 50.0;
+  constexpr double kSampleRate = 50.0;
   for (const double share : {0.1, 1.0, 4.0}) {
     RandomStream random(3, "imu_noise.share");
-    ImuNoise noise(kRate);
-    const double gyro_density = std::sqrt(share / kRate) * kRateSigma;
-    const double force_density = std::sqrt(share / kRate) * kForceSigma;
+    ImuNoise noise(kSampleRate);
+    const double gyro_density = std::sqrt(share / kSampleRate) * kRateSigma;
+    const double force_density = std::sqrt(share / kSampleRate) * kForceSigma;
     Axis rotation(gyro_density, 2e-3);
     Axis velocity(force_density, 0.1);
     double gyro = 0.0;
     double force = 0.0;
     for (int i = 0; i < 20000; ++i) {
-      noise.add(white_sample(i, kRate, random));
-      rotation.move(1.0 / kRate, noise.density().gyro, random);
-      velocity.move(1.0 / kRate, noise.density().accelerometer, random);
+      noise.add(white_sample(i, kSampleRate, random));
+      rotation.move(1.0 / kSampleRate, noise.density().gyro, random);
+      velocity.move(1.0 / kSampleRate, noise.density().accelerometer, random);
       if (i % 5 != 4) continue;
       const double turn = rotation.correct(random);
       const double push = velocity.correct(random);

@@ -91,7 +91,7 @@ struct TiltErrors {
 
 /// A start whose bias and error of the mean force are drawn from the configuration.
 TiltErrors errors_of_a_start(RandomStream& random, bool moving) {
-  using E = ErrorState;
+  using State = ErrorState;
   const InitializationConfig config;
   const Eigen::Quaterniond tilt =
       so3_exp({0.0, 0.05 * random.normal(), 0.0}) * so3_exp({0.05 * random.normal(), 0.0, 0.0});
@@ -110,10 +110,10 @@ TiltErrors errors_of_a_start(RandomStream& random, bool moving) {
   Vector6 d;
   d << true_up.cross(up), bias - belief.state.accelerometer_bias;
   Matrix6 P;
-  P << block(belief.covariance, E::kRotation, E::kRotation),
-      block(belief.covariance, E::kRotation, E::kAccelerometerBias),
-      block(belief.covariance, E::kAccelerometerBias, E::kRotation),
-      block(belief.covariance, E::kAccelerometerBias, E::kAccelerometerBias);
+  P << block(belief.covariance, State::kRotation, State::kRotation),
+      block(belief.covariance, State::kRotation, State::kAccelerometerBias),
+      block(belief.covariance, State::kAccelerometerBias, State::kRotation),
+      block(belief.covariance, State::kAccelerometerBias, State::kAccelerometerBias);
   Eigen::Matrix<double, 3, 6> correction;
   correction << Eigen::Matrix3d::Identity(), -hat(up) / kGravity;
   const Eigen::Vector3d corrected = correction * d;

@@ -180,6 +180,8 @@ TEST(TuningPage, TheAnalysisIsThatOfTheMergedSweep) {
   EXPECT_EQ(analysis["score"], "ate_yaw_m");
   EXPECT_EQ(analysis["objective"], text_of(objective));
   EXPECT_EQ(analysis["best"]["values"], (std::vector<double>{4.0, 1.0}));
+  EXPECT_EQ(analysis["best"]["text"].get<std::string>().find("degeneracy.eta 4 instead of "), 0U)
+      << analysis["best"]["text"];
   EXPECT_EQ(analysis["best"]["objective"], best->objective);
   EXPECT_EQ(analysis["best"]["gain"], *best->gain);
   EXPECT_EQ(analysis["best"]["between"][0][0], *best->between[0].low);

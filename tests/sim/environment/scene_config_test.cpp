@@ -60,12 +60,12 @@ TEST(CorridorScene, PlainOneIsSevenBoxesAtKnownPlaces) {
   config.corridor.length = 20.0;
   config.corridor.margin = 3.0;
   const Scene scene = build_scene(config, 1);
-  struct Expected {
+  struct KnownBox {
     Vector3d centre, half;
     bool collides, visible;
   };
   // A slab that collides and a face that is seen for each wall, two ends, and the ceiling.
-  const std::vector<Expected> boxes = {{{10.0, 1.2, 1.3}, {13.2, 0.1, 1.3}, true, false},
+  const std::vector<KnownBox> boxes = {{{10.0, 1.2, 1.3}, {13.2, 0.1, 1.3}, true, false},
                                        {{10.0, 1.2, 1.3}, {13.2, 0.1, 1.35}, false, true},
                                        {{10.0, -1.2, 1.3}, {13.2, 0.1, 1.3}, true, false},
                                        {{10.0, -1.2, 1.3}, {13.2, 0.1, 1.35}, false, true},

@@ -15,7 +15,7 @@ export interface Finding {
   /** Heading-aligned ATE [m]. */
   ate: number | null;
   /** Where it is lost for good; null if it is not. */
-  loss: { from: number; most: number; early: boolean } | null;
+  loss: { from: number; distance: number; most: number; early: boolean } | null;
   /** Largest error in the direction that fails where the length does not show it [m]. */
   aside: { direction: "height" | "sideways"; most: number } | null;
   /** What constrained the weak axis there: median of the equivalent returns; null: not known. */
@@ -80,7 +80,8 @@ function lossText(each: Finding, route: Route): string {
   }
   if (!loss) return `${each.name} fails`;
   const verb = signed !== null && signed < 0 ? "loses" : "strays by";
-  return `${each.name} ${verb} ${formatNumber(loss.most, 2)} m from ${loss.from.toFixed(0)} s on${place(each.returns)}${unnoticed}`;
+  const where = `from ${loss.from.toFixed(0)} s on (after ${loss.distance.toFixed(0)} m)`;
+  return `${each.name} ${verb} ${formatNumber(loss.most, 2)} m ${where}${place(each.returns)}${unnoticed}`;
 }
 
 /** Those that lose the length, the most telling first: lost at a place before wrong throughout. */
@@ -100,7 +101,7 @@ function worstAlike(list: Finding[]): boolean {
 export function finding(list: Finding[], route: Route): string {
   const known = list.filter((each) => each.percent !== null);
   if (known.length === 0) return withoutLengths(list);
-  const what = route.corridor ? "the corridor's length" : "the distances between its reference points";
+  const what = route.corridor ? "the corridor's length" : "the distances between the reference points";
   const good = known.filter((each) => each.success && each.percent! <= kWrong)
     .sort((a, b) => a.percent! - b.percent!);
   const bad = losers(list);

@@ -17,7 +17,7 @@ before(async () => {
   folder = await mkdtemp(path.join(os.tmpdir(), "aims-findings-"));
   const outfile = path.join(folder, "page.mjs");
   const { build } = createRequire(path.join(modules, "any.js"))("esbuild");
-  const sources = ["findings", "run/errors", "run/findings_of", "run/plan", "run/state_url", "run/camera3d"];
+  const sources = ["findings", "run/errors", "run/findings_of", "run/layers", "run/plan", "run/state_url", "run/camera3d"];
   await build({
     stdin: {
       contents: sources.map((name) => `export * from "./src/${name}";`).join("\n"),
@@ -85,7 +85,7 @@ test("the sentence names who keeps the length, who loses it where, and who does 
   const { list, route } = page.findingsOf(data);
   assert.match(
     page.finding(list, route),
-    /^good keeps the corridor's length within 0\.02\d* %; lost loses 24 m from 6[01] s on, where the walls constrain nothing along the way, and calls itself healthy; short is 13 % short throughout, and calls itself healthy\.$/,
+    /^good keeps the corridor's length within 0\.02\d* %; lost loses 24 m from 6[01] s on \(after 6[01] m\), where the walls constrain nothing along the way, and calls itself healthy; short is 13 % short throughout, and calls itself healthy\.$/,
   );
 });
 
@@ -119,6 +119,14 @@ test("where nothing differs the sentence says so", () => {
   const { list, route } = page.findingsOf(data);
   assert.match(page.finding(list, route), /^a and b both keep the corridor's length within 0\.030 %: this run does not separate them\.$/);
   assert.equal(page.finding([], route), "");
+});
+
+test("of curves on each other the worst is below and the widest", () => {
+  const item = (name, most) => ({ name, track: { error: [0, most] } });
+  const layers = page.layered([item("good", 0.1), item("lost", 29), item("alike", 0.1)]);
+  assert.deepEqual(layers.map(({ item: { name } }) => name), ["lost", "alike", "good"]);
+  assert.ok(layers[0].width > layers[1].width && layers[1].width > layers[2].width && layers[2].width >= 1);
+  assert.ok(page.layered(Array.from({ length: 20 }, (_, i) => item(`${i}`, i)))[0].width < 8, "also of many");
 });
 
 test("the plan of a corridor fills its height, that of a square keeps its scale", () => {

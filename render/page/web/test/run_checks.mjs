@@ -371,6 +371,14 @@ async function assertOverview(page, payload) {
     await settle(page);
     assert.equal((await cursorOf(page)) < before, part < 0.5, "a press on the error moves the run's cursor there");
   }
+  assert.match(await page.locator(".overview-plan [data-beyond]").innerText(), /Dots: where estimates end\./);
+  for (const width of [1400, 1300, 1000, 390]) {
+    await page.setViewportSize({ width, height: 800 });
+    const cut = await page.locator('[data-table="paper"] .table-frame').evaluate((frame) => frame.scrollWidth - frame.clientWidth);
+    assert.ok(cut <= 1, `the results are cut by ${cut} px at ${width} px`);
+  }
+  await page.setViewportSize({ width: 1280, height: 800 });
+  await settle(page);
   assert.equal(await page.locator('[data-control="level"]').inputValue(), "n100", "below 100 returns is degenerate");
   await page.locator(`[data-shown="${names[0]}"]`).uncheck();
   await page.waitForFunction(() => location.hash.includes("hide="));

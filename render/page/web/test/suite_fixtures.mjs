@@ -125,7 +125,7 @@ export function tuning({ parameter = "degeneracy.eta", scenarios = ["corridor", 
   const analysis = {
     score: "ate_m", objective: "median of ate_m; a diverged run counts 10", axis: "objective: ate_m [m]", objectives: Float32Array.from(points, value),
     held_out: null, relative: false, points: 12, seeds: 2, incomplete: 0,
-    best: { values: [6, 1], between: [[4, 6], [1, 10]], objective: 0.4, objective_interval: [0.38, 0.44], defaults: 0.755, gain: 0.47,
+    best: { values: [6, 1], text: `${parameter} 6.00 instead of 3.00`, between: [[4, 6], [1, 10]], objective: 0.4, objective_interval: [0.38, 0.44], defaults: 0.755, gain: 0.47,
       gain_interval: [0.4, 0.5], distance: [0.5, -0.55] },
     sensitivity: { points: 12, logarithmic: true, of_grid: true, resolved: true, least_explained: 0.9, fit: { terms: 4, error: 0.05, explained: 0.97 }, first: [0.88, 0.02], total: [0.95, 0.04],
       total_interval: [[0.9, 0.98], [0.01, 0.049]], second: [[0, 0.02], [0.02, 0]], negligible: [false, true] },

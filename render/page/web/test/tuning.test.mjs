@@ -31,12 +31,13 @@ test("the held-out verdict leads, and says when there is none", { skip }, async 
   const { page, troubles } = await pages.show(data);
   const first = page.locator("#best p").first();
   assert.equal(await first.getAttribute("data-verdict"), "do not use");
-  assert.match(await first.innerText(), /do not use them: 8\.7 % worse/);
+  assert.match(await first.innerText(), /^Tuned values: degeneracy\.eta 6\.00 instead of 3\.00\. Verdict: do not use them: 8\.7 % worse/);
   data.estimators[0].analyses[0].held_out = null;
   const other = await pages.show(data);
-  assert.match(await other.page.locator("#best p").first().innerText(), /Not validated/);
+  assert.match(await other.page.locator("#best p").first().innerText(), /Verdict: not validated/);
   const sweep = await pages.show(tuning());
   assert.equal(await sweep.page.locator("#best [data-verdict]").count(), 0);
+  assert.match(await sweep.page.locator("#best p").first().innerText(), /^Best values: degeneracy\.eta 6\.00 instead of 3\.00/);
   assert.deepEqual(troubles, []);
 });
 

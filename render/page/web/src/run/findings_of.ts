@@ -53,7 +53,7 @@ function findingOf(data: RunPayload, path: Path | null, name: string, scores: un
     worst: null,
     signed: signedPercent(scores),
     ate: numberAt("ate_yaw_m"),
-    loss: loss ? { from: loss.from, most: loss.most, early: loss.distance < kEarly * length } : null,
+    loss: loss ? { from: loss.from, distance: loss.distance, most: loss.most, early: loss.distance < kEarly * length } : null,
     aside: asideOf(scores),
     returns: loss ? returnsAfter(data, loss.from) : null,
     healthy: at(scores, "health", "worst") === "healthy",

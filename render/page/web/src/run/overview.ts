@@ -6,14 +6,15 @@ import { h } from "../dom";
 import { isNumber } from "../format";
 import { color, onTheme, seriesColor } from "../theme";
 import { errorTrack, ownTrack, thin, truePath, type Alignment, type ErrorTrack, type Path } from "./errors";
+import { layered } from "./layers";
 import { Panel, type PanelSpec } from "./panel";
 import type { Backdrop } from "./panel_paint";
 import { planView } from "./plan";
 import { dashed, kLevels } from "./panels";
 import { nearestIndex, type Store } from "./store";
 
-/** Errors are drawn from here on, and no error at all is this [m]. */
-const kLeast = 0.01;
+/** The error axis begins where all but 5 % of the errors are above it, within these limits; no error at all is this [m]. */
+const kLeast = [0.001, 0.01] as const;
 const kSmallest = 1e-4;
 const kSamples = 500;
 const kHeight = 270;
@@ -44,6 +45,12 @@ function shaded(data: RunPayload, path: Path, store: Store): [number, number][] 
     .filter(([from, to]) => to > from);
 }
 
+/** "46 of 79 m". */
+function lengthText(parts: [number, number][], path: Path): string {
+  const length = parts.reduce((sum, [from, to]) => sum + to - from, 0);
+  return `${length.toFixed(0)} of ${(path.travelled.at(-1) ?? 0).toFixed(0)} m`;
+}
+
 interface Shown {
   name: string;
   index: number;
@@ -61,10 +68,13 @@ function shownTracks(data: RunPayload, path: Path | null, store: Store): Shown[]
 /** Errors of all, thinned. */
 function errorSpec(shown: Shown[]): PanelSpec {
   const most = Math.max(0.1, ...shown.map(({ track }) => track.error.reduce((a, b) => Math.max(a, b), 0)));
-  const curves = shown.map(({ name, index, track }) => {
+  const errors = shown.flatMap(({ track }) => track.error).sort((a, b) => a - b);
+  const least = Math.min(kLeast[1], Math.max(kLeast[0], errors[Math.floor(0.05 * errors.length)] ?? 0));
+  const curves = layered(shown).map(({ item, width }) => {
+    const { name, index, track } = item;
     const kept = thin(track, kSamples);
     return {
-      label: name, color: seriesColor(index), dash: dashed(index), width: 1.75,
+      label: name, color: seriesColor(index), dash: dashed(index), width, place: shown.indexOf(item),
       track: {
         times: Float32Array.from(kept, (i) => track.distance[i]!),
         values: Float32Array.from(kept, (i) => Math.max(track.error[i]!, kSmallest)),
@@ -72,7 +82,7 @@ function errorSpec(shown: Shown[]): PanelSpec {
     };
   });
   return {
-    id: "error_distance", title: "Position error", unit: "m", curves, log: true, range: [kLeast, 1.4 * most],
+    id: "error_distance", title: "Position error", unit: "m", curves, log: true, range: [least, 1.4 * most],
     height: kHeight, xUnit: "m", hint: "Over the distance travelled",
   };
 }
@@ -157,7 +167,8 @@ export function overviewCharts(
   const draw = () => {
     const level = kLevels.find(({ level: name }) => name === store.state.level);
     const degenerate = data.localizability
-      ? h("span", { class: "legend-item" }, h("i", { class: "swatch shade" }), `below ${level?.returns ?? 100} equivalent returns`) : null;
+      ? h("span", { class: "legend-item" }, h("i", { class: "swatch shade" }),
+        `degenerate, below ${level?.returns ?? 100} equivalent returns: ${lengthText(shaded(data, path, store), path)}`) : null;
     choices.replaceChildren(alignmentChoice(store), degenerate ?? "");
     chart.draw(shownTracks(data, path, store));
     drawPlan();

@@ -3,7 +3,7 @@
 import uPlot from "uplot";
 import { axis as axisOf, tickLabel } from "../charts/axis";
 import { h } from "../dom";
-import { formatNumber } from "../format";
+import { formatNumber, isNumber } from "../format";
 import { color } from "../theme";
 import { linearRange, logRange } from "./panel_axes";
 import { drawLevels, drawMarks, drawIntervals, type Backdrop } from "./panel_paint";
@@ -15,6 +15,8 @@ export interface Curve {
   track: Track;
   color: string;
   width?: number;
+  /** In the panel's head, the least first. */
+  place?: number;
   dash?: number[];
   /** Filled down to the bottom, in steps. */
   area?: boolean;
@@ -64,6 +66,7 @@ export class Panel {
   private readonly line: HTMLElement;
   private readonly values: { curve: Curve; shown: HTMLElement }[];
   private readonly sigma: HTMLElement | null;
+  private readonly beyond = h("span", { class: "beyond" });
 
   constructor(
     private readonly spec: PanelSpec,
@@ -87,9 +90,21 @@ export class Panel {
     this.plot.over.dataset["plot"] = spec.id;
   }
 
+  /** Names the curves that leave the vertical scale, in the head. */
+  private sayBeyond(plot: uPlot): void {
+    const [low, high] = [plot.scales["y"]!.min, plot.scales["y"]!.max];
+    if (!isNumber(low) || !isNumber(high)) return;
+    const texts = this.spec.curves.flatMap(({ label, track, counts }) => {
+      if (counts ?? true) return [];
+      const most = track.values.reduce((a, b) => (Math.abs(b) > Math.abs(a) ? b : a), 0);
+      return most > high || most < low ? [`${label} to ${formatNumber(most)}${this.spec.unit ? ` ${this.spec.unit}` : ""}`] : [];
+    });
+    this.beyond.textContent = texts.length > 0 ? `beyond the axis: ${texts.join(", ")}` : "";
+  }
+
   private head(): HTMLElement {
     const legend = [...this.values]
-      .sort((a, b) => (b.curve.width ?? 0) - (a.curve.width ?? 0))
+      .sort((a, b) => (a.curve.place ?? 0) - (b.curve.place ?? 0))
       .map(({ curve, shown }) => {
         const swatch = h("i", { class: "swatch" });
         swatch.style.background = curve.color;
@@ -111,6 +126,7 @@ export class Panel {
         this.spec.unit ? h("span", { class: "unit" }, ` ${this.spec.unit}`) : null,
       ),
       ...legend,
+      this.beyond,
     );
   }
 
@@ -196,6 +212,7 @@ export class Panel {
         drawClear: [(plot) => drawIntervals(plot, this.backdrop.shaded)],
         draw: [
           (plot) => drawLevels(plot, spec.levels ?? []),
+          (plot) => this.sayBeyond(plot),
           (plot) => drawMarks(plot, this.backdrop.marks, this.named),
         ],
       },

@@ -50,6 +50,7 @@ function everyone(data: RunPayload, state: Readonly<State>, name: string, all: b
         color: seriesColor(estimator.colour_index),
         dash: dashed(estimator.colour_index),
         width: index === chosen ? 1.75 : 1,
+        place: index === chosen ? -1 : index,
         counts: all || index === chosen,
       },
     ];

@@ -4,8 +4,10 @@ import { axis, type Axis } from "../charts/axis";
 import { figure } from "../charts/figure";
 import { dashOf, lineSample, seriesPaint, svg } from "../charts/svg";
 import type { RunPayload } from "../contract";
+import { h } from "../dom";
 import { formatNumber, isNumber } from "../format";
 import type { ErrorTrack } from "./errors";
+import { layered } from "./layers";
 
 /** The axes follow estimates up to this far from the truth [m]. */
 const kFollow = 2;
@@ -161,20 +163,34 @@ function points(data: RunPayload, frame: Frame): SVGElement {
   return group;
 }
 
+/** Where the estimate ends. */
+function endOf({ name, index, track }: PlanLine, frame: Frame): SVGElement {
+  const last = track.p.length - 3;
+  const [cx, cy] = place(frame, track.p[last] ?? NaN, track.p[last + 1] ?? NaN);
+  return svg("circle", { class: "end", "data-end": name, cx, cy, r: Number.isFinite(cx + cy) ? 4 : 0, style: `--paint: ${seriesPaint(index)}` });
+}
+
+/** Does the path end beside the frame? */
+function isBeyond({ min, max }: Extent, { track }: PlanLine): boolean {
+  const at = (axis: 0 | 1) => track.p[track.p.length - 3 + axis] ?? NaN;
+  return ([0, 1] as const).some((axis) => at(axis) < min[axis] || at(axis) > max[axis]);
+}
+
 function drawn(data: RunPayload, lines: PlanLine[], extent: Extent, outer: number): SVGSVGElement {
   const id = "plan-clip";
   const frame = planFrame(extent, outer - kMargin.left - kMargin.right);
   const height = frame.height + kMargin.top + kMargin.bottom;
   const truth = data.truth?.p ?? new Float32Array();
+  const layers = layered(lines);
   const clip = svg("clipPath", { id }, svg("rect", {
     x: kMargin.left, y: kMargin.top, width: frame.width, height: frame.height }));
   const inside = svg("g", { "clip-path": `url(#${id})` },
     svg("path", { class: "walls", d: wallPath(data, frame) }),
-    svg("path", { class: "truth", d: pathOf(frame, truth.length / 3, (i) => [truth[3 * i]!, truth[3 * i + 1]!]) }),
-    ...[...lines].reverse().map(({ name, index, track }) => svg("path", {
-      class: "line", "data-series": name, style: `--paint: ${seriesPaint(index)}`, "stroke-dasharray": dashOf(index),
+    svg("path", { class: "truth", "stroke-width": (layers[0]?.width ?? 1) + 3, d: pathOf(frame, truth.length / 3, (i) => [truth[3 * i]!, truth[3 * i + 1]!]) }),
+    ...layers.map(({ item: { name, index, track }, width }) => svg("path", {
+      class: "line", "data-series": name, style: `--paint: ${seriesPaint(index)}`, "stroke-width": width, "stroke-dasharray": dashOf(index),
       d: pathOf(frame, track.t.length, (i) => [track.p[3 * i]!, track.p[3 * i + 1]!]),
-    })), points(data, frame));
+    })), ...layers.map(({ item }) => endOf(item, frame)), points(data, frame));
   return svg("svg", {
     class: "plan", width: outer, height, viewBox: `0 0 ${outer} ${height}`, "aria-label": "Walls, true path and estimated paths from above",
   }, clip, axes(frame), inside);
@@ -184,9 +200,13 @@ function drawn(data: RunPayload, lines: PlanLine[], extent: Extent, outer: numbe
 export function planView(data: RunPayload, lines: PlanLine[]): HTMLElement | null {
   const extent = planExtent(data, lines);
   if (!extent) return null;
-  return figure({
+  const beyond = lines.filter((line) => isBeyond(extent, line)).map(({ name }) => name);
+  const plan = figure({
     kind: "chart", name: `Plan of ${data.title}`,
     draw: (width) => ({ svg: drawn(data, lines, extent, width), places: [] }),
     keys: () => lines.map(({ name, index }) => ({ name, sample: lineSample(index) })),
   }).element;
+  plan.append(h("p", { class: "soft hint", "data-beyond": beyond.length },
+    `Dots: where estimates end.${beyond.length > 0 ? ` Beyond this plan: ${beyond.join(", ")}.` : ""}`));
+  return plan;
 }

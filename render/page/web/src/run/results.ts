@@ -82,13 +82,18 @@ function paperTable(data: RunPayload, list: Row[]): HTMLElement {
   });
 }
 
+/** "never started" is what the terminal says, too. */
+function healthWord(worst: unknown): string {
+  return worst === "starting" ? "never started" : String(worst ?? kNone);
+}
+
 /** What the estimator says of itself beside what the truth says of it. */
 const healthColumn: Column<Row> = {
   title: "Reports itself",
   hint: "Worst state that the estimator reported, without the truth",
   value: (row) => String(at(row.scores, "health", "worst") ?? ""),
   show: (row) => {
-    const worst = String(at(row.scores, "health", "worst") ?? kNone);
+    const worst = healthWord(at(row.scores, "health", "worst"));
     if (success(row) || worst !== "healthy" || row.scores === undefined) return worst;
     return h("span", { class: "unnoticed", title: "Its error exceeds the limit of a success" }, `${worst}, but wrong`);
   },
@@ -217,11 +222,10 @@ function healthTable(data: RunPayload): HTMLElement | null {
     list,
     [
       { title: "Estimator", value: (item) => item.name },
-      { title: "worst", value: (item) => String(at(item.health, "worst") ?? "") },
+      { title: "reports of itself", value: (item) => String(at(item.health, "text") || at(item.health, "worst") || "") },
       seconds("healthy", "healthy_s", "Every source arrives and agrees with the others"),
       seconds("degraded", "degraded_s", "A source is missing or contradicts another"),
       seconds("invalid", "invalid_s", "The estimate must not be used"),
-      { title: "reasons", value: (item) => String(at(item.health, "reasons") ?? "") || kNone },
     ],
     { caption: "Health, as each estimator reports it", rowName: (item) => item.name },
   );

@@ -93,10 +93,10 @@ function player(store: Store, button: HTMLElement): void {
   });
 }
 
-/** Errors, or what the chosen estimator computes by itself. */
-function tabs(store: Store): HTMLElement {
+/** What is measured from outside, errors where there is a truth, or what the chosen estimator computes by itself. */
+function tabs(data: RunPayload, store: Store): HTMLElement {
   const names: [Tab, string][] = [
-    ["errors", "Errors over time"],
+    ["errors", data.truth ? "Errors over time" : "Over time"],
     ["internals", "Internals of the estimator"],
   ];
   const buttons = names.map(([tab, text]) =>
@@ -143,7 +143,7 @@ function choices(data: RunPayload, store: Store): HTMLElement {
     data.localizability
       ? h("label", {}, h("i", { class: "swatch shade" }), "degenerate ", level)
       : null,
-    data.estimators.length > 1 ? h("label", {}, "error axis fits ", scale) : null,
+    data.truth && data.estimators.length > 1 ? h("label", {}, "error axis fits ", scale) : null,
   );
 }
 
@@ -249,7 +249,7 @@ export function timeline(
   const element = h(
     "section",
     { class: "card timeline", "aria-label": "Timeline" },
-    tabs(store),
+    tabs(data, store),
     choices(data, store),
     stack,
     h("p", { class: "soft hint" }, matchMedia("(pointer: coarse)").matches ? kTouchHint : kHint),

@@ -17,6 +17,8 @@ export interface Parameter {
 
 export interface Best {
   values: number[];
+  /** The values beside the defaults, and which lies at an edge of its range. */
+  text: string;
   between: Interval[];
   objective: Maybe;
   objective_interval: Interval;

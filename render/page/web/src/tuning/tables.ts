@@ -15,11 +15,12 @@ function bracket(interval: [number, number] | null, scale = 1, unit = ""): strin
   return interval ? ` [${formatNumber(scale * interval[0])}, ${formatNumber(scale * interval[1])}]${unit}` : "";
 }
 
-/** The held-out verdict, which leads; null for a sweep. */
-function verdict(analysis: Analysis): HTMLElement | null {
-  const held = analysis.held_out;
-  return held ? h("p", { class: `verdict ${held.verdict.replaceAll(" ", "-")}`, "data-verdict": held.verdict },
-    `Tuned values: ${held.text}.`) : null;
+/** The values found and, of a tuning, what the held-out sequences say of them. */
+function verdict(values: string, analysis: Analysis, tuned: boolean): HTMLElement {
+  if (!tuned) return h("p", {}, h("strong", {}, `Best values: ${values}.`));
+  const held = analysis.held_out ?? { verdict: "undecided", text: "not validated: these values were not run on the held-out sequences" };
+  return h("p", { class: `verdict ${held.verdict.replaceAll(" ", "-")}`, "data-verdict": held.verdict },
+    h("strong", {}, `Tuned values: ${values}.`), ` Verdict: ${held.text}.`);
 }
 
 /** What the best point gains, in words. `tuned`: by an optimizer, with sequences held out. */
@@ -33,10 +34,7 @@ export function outcome(analysis: Analysis, tuned: boolean): HTMLElement {
     : " The defaults were not run on every sequence, so that nothing is compared with them.";
   const sure = analysis.seeds < 2 ? "One seed: no intervals."
     : `Intervals: 95 % bootstraps over ${analysis.seeds} seeds${analysis.seeds < 10 ? ", too narrow for so few seeds" : ""}.`;
-  const unproven = tuned && !analysis.held_out
-    ? h("p", { class: "verdict undecided", "data-verdict": "undecided" },
-      "Not validated: this point was not run on the held-out sequences.") : null;
-  return h("div", {}, verdict(analysis), unproven,
+  return h("div", {}, verdict(best.text, analysis, tuned),
     h("p", {}, `Objective: ${analysis.objective}. The best of ${analysis.points} points has an objective of `,
       h("b", { "data-best": best.objective }, formatNumber(best.objective)),
       `${bracket(ends(best.objective_interval))}.${gain}`),

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/tuning/values_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "bench/tuning/range_key.hpp"
+
+namespace aims {
+namespace {
+
+constexpr double kEdge = 0.02;  ///< this near to an end, in widths of the range
+
+/// " (at the lower edge ...)", or nothing.
+std::string edge_text(const ParameterRange& range, double value) {
+  const double fraction = fraction_of(range, value);
+  const bool lower = fraction <= kEdge;
+  if (!lower && fraction < 1.0 - kEdge) return "";
+  const Range allowed = allowed_values(range);
+  const bool final = lower ? range.low <= allowed.min : range.high >= allowed.max;
+  const char* beyond = !final  ? "the optimum may lie outside"
+                       : lower ? "no smaller value is allowed"
+                               : "no larger value is allowed";
+  return fmt::format(" (at the {} edge of its range {} to {}: {})", lower ? "lower" : "upper",
+                     range.low, range.high, beyond);
+}
+
+}  // namespace
+
+std::string values_text(std::span<const ParameterRange> ranges, std::span<const double> defaults,
+                        std::span<const double> values) {
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const std::string value = fmt::format("{:.3g}", values[i]);
+    const std::string before = fmt::format("{:.3g}", defaults[i]);
+    const std::string beside = value == before ? " as by default" : " instead of " + before;
+    texts.push_back(ranges[i].key + " " + value + beside + edge_text(ranges[i], values[i]));
+  }
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+}  // namespace aims
