@@ -47,6 +47,7 @@ struct BagSummary {
   bool closed = true;                   ///< false: its writer never completed it
   std::uint64_t lost_messages = 0;      ///< with impossible times, when recovered
   std::uint64_t repeated_messages = 0;  ///< that several files hold, of those read so far
+  Duration clock_shift = 0;             ///< largest, of files of recorders whose clocks differ
   bool recorded_at_stamps = false;      ///< record times were all the same: stamps took their place
 };
 

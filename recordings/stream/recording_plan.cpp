@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -136,6 +137,17 @@ RecordingConfig with_recorded_legs(const RecordingConfig& given, MessageSource& 
   return config;
 }
 
+/// Of files whose recorders had different clocks.
+void warn_of_recorders(const BagSummary& summary, std::vector<ReadingWarning>& warnings) {
+  if (summary.clock_shift == 0) return;
+  warnings.push_back(
+      {"clocks of the recorders differ",
+       fmt::format("the stamps of the files agree, but record times of one are {:.3f} s {} by "
+                   "another recorder's clock: its messages are merged by their stamps",
+                   std::abs(to_seconds(summary.clock_shift)),
+                   summary.clock_shift < 0 ? "ahead" : "behind")});
+}
+
 }  // namespace
 
 Result<RecordingPlan> plan_recording(MessageSource& bag, const RecordingConfig& given,
@@ -162,7 +174,9 @@ Result<RecordingPlan> plan_recording(MessageSource& bag, const RecordingConfig& 
   if (survey.needs_motion()) survey_motion(bag, topics, channels, survey);
   if (survey.learns_contacts()) survey_loads(bag, topics.contacts, survey);
   auto plan = survey.decide(bag.name(), std::move(notes));
-  if (plan) plan->start = survey.start(bag.summary());
+  if (!plan) return plan;
+  plan->start = survey.start(bag.summary());
+  warn_of_recorders(bag.summary(), plan->setup.warnings);
   return plan;
 }
 
