@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -418,6 +419,7 @@ Result<bool> RecordingReader::advance(Duration span, std::vector<Delivery>& deli
   }
   if (!impl.next) {
     impl.release(std::numeric_limits<Time>::max(), deliveries);
+    std::ranges::move(impl.legs.warnings(), std::back_inserter(impl.plan.setup.warnings));
     const auto repeated = static_cast<int>(impl.bag->summary().repeated_messages);
     if (repeated > 0) impl.counts["recorded_in_two_files"] = repeated;
   }
