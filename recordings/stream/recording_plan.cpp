@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "recordings/frames/configured_extrinsic.hpp"
+#include "recordings/messages/message_types.hpp"
 #include "recordings/stream/recorded_legs.hpp"
 #include "recordings/stream/recording_survey.hpp"
 #include "recordings/topics/connection_decoders.hpp"
@@ -137,6 +138,29 @@ RecordingConfig with_recorded_legs(const RecordingConfig& given, MessageSource& 
   return config;
 }
 
+/// Whether the configuration, the recording's scenario or the type of its messages states the
+/// lengths of the legs.
+bool knows_legs(const RecordingConfig& given, MessageSource& bag, const StateLayout* state) {
+  return state != nullptr || given.leg_geometry != RecordingConfig().leg_geometry ||
+         recorded_legs(bag).has_value();
+}
+
+/// Of legs whose lengths nothing states. Who maps the columns of a table knows the robot: a note.
+void warn_of_legs(MessageSource& bag, RecordingSetup& setup) {
+  const double thigh = RecordingConfig().leg_geometry.thigh;
+  if (type_of(bag.connections(), setup.topics.contacts) == kFootForces) {
+    return setup.notes.push_back(
+        fmt::format("leg geometry: that of a Unitree Go1, thigh {} m (leg_geometry)", thigh));
+  }
+  setup.warnings.push_back(
+      {"lengths of the legs assumed",
+       fmt::format("nothing states the lengths of the legs: those of a Unitree Go1 are assumed "
+                   "(thigh {} m), and distances by the legs are wrong by as much as they are. Set "
+                   "recording.leg_geometry (of a Go1: {{hip_x: 0.1881, hip_y: 0.04675}})",
+                   thigh),
+       WarnedSensor::kLegs});
+}
+
 /// Of files whose recorders had different clocks.
 void warn_of_recorders(const BagSummary& summary, std::vector<ReadingWarning>& warnings) {
   if (summary.clock_shift == 0) return;
@@ -177,6 +201,9 @@ Result<RecordingPlan> plan_recording(MessageSource& bag, const RecordingConfig& 
   if (!plan) return plan;
   plan->start = survey.start(bag.summary());
   warn_of_recorders(bag.summary(), plan->setup.warnings);
+  if (plan->setup.has_joints && !knows_legs(given, bag, state_of_joints(channels, topics))) {
+    warn_of_legs(bag, plan->setup);
+  }
   return plan;
 }
 

@@ -2,6 +2,7 @@
 // Legs of a recording without leg odometry.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "core/leg_kinematics.hpp"
@@ -197,6 +198,16 @@ TEST_F(RecordedTrot, AnglesInDegreesAreNamedAndConverted) {
   EXPECT_FALSE(right.noted("are they in degrees?"));
   EXPECT_NEAR(speed(right), test::Trot::kSpeed, 0.02);
   EXPECT_FALSE(read({}).noted("are they in degrees?"));
+}
+
+TEST_F(RecordedTrot, LengthsOfTheLegsThatNothingStatesAreAWarning) {
+  const auto is_assumed = [](const ReadingWarning& each) {
+    return each.reason == "lengths of the legs assumed" && each.sensor == WarnedSensor::kLegs;
+  };
+  EXPECT_EQ(std::ranges::count_if(read({}).setup.warnings, is_assumed), 1);
+  RecordingConfig config;
+  config.leg_geometry.hip_x = 0.1881;
+  EXPECT_EQ(std::ranges::count_if(read({}, config).setup.warnings, is_assumed), 0);
 }
 
 TEST_F(RecordedTrot, KneesOfTheWrongSignAreNamedAtTheEnd) {
