@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <numbers>
@@ -638,6 +639,25 @@ TEST_F(RecordingReaderTest, ImuUnitsFollowFromTheNormOrTheConfiguration) {
   RecordingConfig config;
   config.imu_unit = ImuUnit::kGravities;
   EXPECT_DOUBLE_EQ(first_force(read(3.0, config)), 3.0 * 9.80665);
+}
+
+TEST_F(RecordingReaderTest, AnAccelerometerThatDoesNotMeasureGravityAtRestIsNamed) {
+  // Of a robot that stands for 5 s and measures these forces, at first and later.
+  const auto is_named = [this](double first, double later) {
+    std::filesystem::remove(bag());
+    RobotRecording robot(bag());
+    robot.add_transforms(kMounted);
+    robot.add_imu(kStart, 50, first);
+    robot.add_imu(kStart + kSecond, 200, later);
+    robot.add_clouds(kStart, 3);
+    robot.close();
+    return test::read_recording(bag()).noted("% off gravity");
+  };
+  EXPECT_TRUE(is_named(10.8, 10.8));
+  EXPECT_TRUE(is_named(9.0, 9.0));
+  EXPECT_FALSE(is_named(9.6, 9.6)) << "a bias";
+  EXPECT_FALSE(is_named(9.0, 9.7)) << "a filter that settles";
+  EXPECT_FALSE(is_named(1.0, 1.0)) << "in g";
 }
 
 TEST_F(RecordingReaderTest, AGyroInDegreesIsConvertedWhereTheConfigurationSaysSo) {
