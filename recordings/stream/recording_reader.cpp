@@ -11,6 +11,7 @@
 #include "core/text.hpp"
 #include "recordings/legs/leg_stream.hpp"
 #include "recordings/source/recording_file.hpp"
+#include "recordings/stream/missing_messages.hpp"
 #include "recordings/stream/record_clock.hpp"
 #include "recordings/stream/recording_plan.hpp"
 #include "recordings/stream/repeated_samples.hpp"
@@ -29,6 +30,9 @@ constexpr Duration kMaxLate = 5 * kSecond;
 /// Of a stamp 0 from the time at which its message was recorded, by the clock of the sensor.
 constexpr Duration kMaxUnset = kSecond;
 constexpr std::size_t kMaxHeldBytes = std::size_t{256} << 20;
+/// Fractions of messages whose loss spoils no estimate; drivers of legs often lose some.
+constexpr double kFewMissing = 0.02, kFewLegsMissing = 0.1;
+constexpr int kFewGaps = 5;  ///< that are pauses of a sensor
 
 /// The first role that the messages of a channel serve.
 std::optional<std::size_t> first_role(const Channel& channel) {
@@ -83,6 +87,9 @@ struct RecordingReader::Impl {
   void deliver(std::optional<LegOdometrySample> sample, std::vector<Delivery>& out);
   void malformed(Role role) { ++counts[std::string(name_of(role)) + "_malformed"]; }
   Time stamp_of(Role role, Time stamp, double delay) const;
+  Duration period_of(Role role) const;
+  void warn_of_missing(Role role, WarnedSensor sensor);
+  void finish(std::vector<Delivery>& out);
 
   std::unique_ptr<MessageSource> bag;
   BagSummary summary;  ///< without record times that were never set
@@ -101,6 +108,7 @@ struct RecordingReader::Impl {
   Duration position = 0;
   std::array<std::optional<Time>, kRoleCount> last_stamps;
   std::array<std::string, kRoleCount> frames;  ///< of the first messages
+  std::array<MissingMessages, kRoleCount> missing;
   Trajectory truth;
   std::optional<Time> last_true_stamp;
   EventCounts counts;
@@ -124,6 +132,7 @@ void RecordingReader::Impl::deliver(Role role, Measurement measurement, Time sta
   auto& last = last_stamps[static_cast<std::size_t>(role)];
   if (last && stamp <= *last) ++counts[std::string(name_of(role)) + "_stamp_not_increasing"];
   last = stamp;  // so that one stamp far ahead counts once
+  missing[static_cast<std::size_t>(role)].add(stamp, record_time, period_of(role));
   out.push_back({record_time + plan.arrival_shift, std::move(measurement)});
 }
 
@@ -282,8 +291,7 @@ bool RecordingReader::Impl::is_unset(const BagMessage& message, const Channel& c
 
 /// How long after its stamp and the usual latency a message was recorded; negative: before. Nothing
 /// where its stamp does not tell.
-std::optional<Duration> RecordingReader::Impl::lateness(const BagMessage& message,
-                                                        std::size_t role,
+std::optional<Duration> RecordingReader::Impl::lateness(const BagMessage& message, std::size_t role,
                                                         const MessageView& view) const {
   const auto stamp = view.time("header.stamp");
   if (!stamp || !plan.latency[role] || plan.leaps[role]) return std::nullopt;
@@ -362,6 +370,43 @@ void RecordingReader::Impl::receive(const BagMessage& given, std::vector<Deliver
   if (!hold(message, *channel, *view)) take(*channel, *view, out);
 }
 
+/// Of the messages of a sensor; 0: not known.
+Duration RecordingReader::Impl::period_of(Role role) const {
+  if (role == Role::kLidar) return plan.cloud.period;
+  const auto& rate = role == Role::kImu ? plan.setup.imu_rate_hz : plan.setup.leg_rate_hz;
+  return rate && *rate > 0.0 ? from_seconds(1.0 / *rate) : 0;
+}
+
+/// Warns of many messages that were not recorded.
+void RecordingReader::Impl::warn_of_missing(Role role, WarnedSensor sensor) {
+  const MissingMessages& each = missing[static_cast<std::size_t>(role)];
+  const auto unset = counts.find("stamp_not_set");
+  const auto left_out = unset == counts.end() ? 0 : unset->second;
+  const auto lost = static_cast<double>(each.count() - left_out);
+  const double all = lost + static_cast<double>(each.received());
+  if (lost <= (role == Role::kLegs ? kFewLegsMissing : kFewMissing) * all) return;
+  if (each.gaps() < kFewGaps) return;
+  const std::string name(name_of(role));
+  counts[name + "_messages_missing"] = static_cast<int>(lost);
+  plan.setup.warnings.push_back(
+      {fmt::format("messages of the {} are missing", name),
+       fmt::format("{}: {:.0f} of {:.0f} messages are missing, by the gaps in their stamps "
+                   "({:.1f} %): the network, the recorder or the driver lost them",
+                   topic_of(plan.setup.topics, role), lost, all, 1e2 * lost / all),
+       sensor});
+}
+
+/// What the whole recording tells.
+void RecordingReader::Impl::finish(std::vector<Delivery>& out) {
+  release(std::numeric_limits<Time>::max(), out);
+  warn_of_missing(Role::kImu, WarnedSensor::kAny);
+  warn_of_missing(Role::kLidar, WarnedSensor::kLidar);
+  warn_of_missing(Role::kLegs, WarnedSensor::kLegs);
+  std::ranges::move(legs.warnings(), std::back_inserter(plan.setup.warnings));
+  const auto repeated = static_cast<int>(bag->summary().repeated_messages);
+  if (repeated > 0) counts["recorded_in_two_files"] = repeated;
+}
+
 Result<RecordingReader> RecordingReader::open(const std::filesystem::path& file,
                                               const RecordingConfig& config,
                                               BagOpenOptions options) {
@@ -417,12 +462,7 @@ Result<bool> RecordingReader::advance(Duration span, std::vector<Delivery>& deli
     impl.next.reset();
     if (auto ok = impl.fetch(); !ok) return tl::unexpected(ok.error());
   }
-  if (!impl.next) {
-    impl.release(std::numeric_limits<Time>::max(), deliveries);
-    std::ranges::move(impl.legs.warnings(), std::back_inserter(impl.plan.setup.warnings));
-    const auto repeated = static_cast<int>(impl.bag->summary().repeated_messages);
-    if (repeated > 0) impl.counts["recorded_in_two_files"] = repeated;
-  }
+  if (!impl.next) impl.finish(deliveries);
   return impl.next.has_value();
 }
 

@@ -706,6 +706,27 @@ Recording read_with_times(const std::filesystem::path& bag, const ChangeTimes& t
 constexpr Time kLeap = 1'700'000'003 * kSecond;
 
 // The survey sees the first 100 clouds.
+TEST_F(RecordingReaderTest, MissingMessagesAreCountedAndNamed) {
+  // Of every so many messages of the IMU one is lost; all others come with jitter.
+  const auto read = [this](int every) {
+    std::filesystem::remove(bag());
+    RobotRecording robot(bag());
+    robot.add_transforms(kMounted);
+    for (int k = 0; k < 1000; ++k) {
+      if (every > 0 && k % every == 7) continue;
+      robot.add_imu(kStart + k * 20 * kMillisecond + (k * 7919 % 1000) * 3000, 1);
+    }
+    robot.add_clouds(kStart, 100);
+    robot.close();
+    return test::read_recording(bag());
+  };
+  EXPECT_FALSE(read(0).noted("are missing"));
+  const Recording lossy = read(10);
+  EXPECT_TRUE(lossy.noted("/imu: 100 of 1000 messages are missing"));
+  EXPECT_EQ(lossy.counts.at("imu_messages_missing"), 100);
+  EXPECT_FALSE(read(200).noted("are missing")) << "a few";
+}
+
 TEST_F(RecordingReaderTest, StampsOfOneTopicThatLeapAreNamed) {
   const Recording read = read_with_times(bag(), [](bool cloud, Time& stamp, Time&) {
     if (cloud && stamp >= kLeap) stamp += 37 * kSecond;
