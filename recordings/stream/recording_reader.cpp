@@ -15,6 +15,7 @@
 #include "recordings/stream/record_clock.hpp"
 #include "recordings/stream/recording_plan.hpp"
 #include "recordings/stream/repeated_samples.hpp"
+#include "recordings/stream/stamp_leaps.hpp"
 #include "recordings/topics/recording_channels.hpp"
 #include "recordings/topics/topic_choice.hpp"
 
@@ -89,6 +90,8 @@ struct RecordingReader::Impl {
   Time stamp_of(Role role, Time stamp, double delay) const;
   Duration period_of(Role role) const;
   void warn_of_missing(Role role, WarnedSensor sensor);
+  void find_leap(const BagMessage& message, const Channel& channel, const MessageView& view);
+  void warn_of_leaps();
   void finish(std::vector<Delivery>& out);
 
   std::unique_ptr<MessageSource> bag;
@@ -109,6 +112,9 @@ struct RecordingReader::Impl {
   std::array<std::optional<Time>, kRoleCount> last_stamps;
   std::array<std::string, kRoleCount> frames;  ///< of the first messages
   std::array<MissingMessages, kRoleCount> missing;
+  SteadyTopic steady_imu;
+  std::array<StampLeaps, kRoleCount> leaps;
+  std::optional<Duration> leapt;  ///< by which the stamp of the current message is wrong
   Trajectory truth;
   std::optional<Time> last_true_stamp;
   EventCounts counts;
@@ -124,7 +130,7 @@ Result<void> RecordingReader::Impl::fetch() {
 /// The stamp of the delivery.
 Time RecordingReader::Impl::stamp_of(Role role, Time stamp, double delay) const {
   const bool recorded = plan.stamped_by_record[static_cast<std::size_t>(role)];
-  return (recorded ? record_time : stamp) - from_seconds(delay);
+  return (recorded ? record_time : stamp - leapt.value_or(0)) - from_seconds(delay);
 }
 
 void RecordingReader::Impl::deliver(Role role, Measurement measurement, Time stamp,
@@ -294,8 +300,20 @@ bool RecordingReader::Impl::is_unset(const BagMessage& message, const Channel& c
 std::optional<Duration> RecordingReader::Impl::lateness(const BagMessage& message, std::size_t role,
                                                         const MessageView& view) const {
   const auto stamp = view.time("header.stamp");
-  if (!stamp || !plan.latency[role] || plan.leaps[role]) return std::nullopt;
+  if (!stamp || !plan.latency[role] || plan.leaps[role] || leapt) return std::nullopt;
   return message.record_time - (*stamp + *plan.latency[role]);
+}
+
+/// By how much the stamp of a message is wrong, where it leapt and those of the IMU did not.
+void RecordingReader::Impl::find_leap(const BagMessage& message, const Channel& channel,
+                                      const MessageView& view) {
+  const auto role = first_role(channel);
+  if (!role || channel.is(Role::kTruth)) return;
+  const auto late = lateness(message, *role, view);
+  if (!late) return;
+  if (channel.is(Role::kImu)) return steady_imu.add(*late, message.record_time);
+  const Time stamp = message.record_time - *late - *plan.latency[*role];
+  leapt = leaps[*role].add(stamp, *late, message.record_time, steady_imu);
 }
 
 /// When a message arrives. One that is recorded before its stamp, as after the recorder's clock was
@@ -349,12 +367,16 @@ void RecordingReader::Impl::release(Time due, std::vector<Delivery>& out) {
 
 void RecordingReader::Impl::receive(const BagMessage& given, std::vector<Delivery>& out) {
   BagMessage message = given;
+  leapt.reset();
   const Channel* channel = channels.find(message);
   if (channel == nullptr) return;
   const auto view = channel->decoder.decode(message.data);
   const bool unset = view && is_unset(given, *channel, *view);
+  if (view && !unset) find_leap(message, *channel, *view);
   if (view && !unset) message.record_time = arrival(message, *channel, *view);
-  release(message.record_time, out);
+  const auto wrong = std::exchange(leapt, std::nullopt);
+  release(message.record_time, out);  // others, whose stamps are right
+  leapt = wrong;
   record_time = message.record_time;
   position = std::max(position, record_time - plan.start);
   if (!view) {
@@ -396,9 +418,32 @@ void RecordingReader::Impl::warn_of_missing(Role role, WarnedSensor sensor) {
        sensor});
 }
 
+/// Warns of stamps of one topic that leapt.
+void RecordingReader::Impl::warn_of_leaps() {
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    const StampLeaps& each = leaps[i];
+    const Role role = static_cast<Role>(i);
+    if (each.count() == 0) continue;
+    counts[fmt::format("{}_stamps_leap", name_of(role))] = each.count();
+    if (steady_imu.was_always_steady()) {  // the first one that leapt was no matter of the recorder
+      counts.erase("recorded_before_their_stamp");
+      counts.erase("recorded_long_after_their_stamp");
+    }
+    plan.setup.warnings.push_back(
+        {fmt::format("stamps of the {} leap", name_of(role)),
+         fmt::format(
+             "{}: stamps leap by {:.3f} s after {:.1f} s, while those of the IMU do not: in "
+             "place of {} of them, record times and the usual delay serve",
+             topic_of(plan.setup.topics, role), to_seconds(each.leap()),
+             to_seconds(each.first() - plan.start), each.count())});
+  }
+}
+
 /// What the whole recording tells.
 void RecordingReader::Impl::finish(std::vector<Delivery>& out) {
+  leapt.reset();
   release(std::numeric_limits<Time>::max(), out);
+  warn_of_leaps();
   warn_of_missing(Role::kImu, WarnedSensor::kAny);
   warn_of_missing(Role::kLidar, WarnedSensor::kLidar);
   warn_of_missing(Role::kLegs, WarnedSensor::kLegs);
