@@ -37,7 +37,7 @@ bool is_degrees(double scale) { return scale > kLeastDegrees && scale < kMostDeg
 
 }  // namespace
 
-void Agreement::add(double first, double second) {
+void SignalAgreement::add(double first, double second) {
   if (!std::isfinite(first) || !std::isfinite(second)) return;
   ++count_;
   first_squared_ += first * first;
@@ -45,12 +45,14 @@ void Agreement::add(double first, double second) {
   product_ += first * second;
 }
 
-double Agreement::correlation() const {
+double SignalAgreement::correlation() const {
   const double both = first_squared_ * second_squared_;
   return both > 0.0 ? product_ / std::sqrt(both) : 0.0;
 }
 
-double Agreement::scale() const { return second_squared_ > 0.0 ? product_ / second_squared_ : 0.0; }
+double SignalAgreement::scale() const {
+  return second_squared_ > 0.0 ? product_ / second_squared_ : 0.0;
+}
 
 void LegCheck::add_imu(const ImuSample& sample, const Eigen::Vector3d& place) {
   const double force = sample.specific_force.norm();
@@ -172,7 +174,7 @@ void LegCheck::check_stances(std::vector<ReadingWarning>& found) const {
 
 /// Warns of feet that turn against the base otherwise than the gyro says.
 void LegCheck::check_turning(std::vector<ReadingWarning>& found) const {
-  const Agreement &x = turns_[0], &y = turns_[1];
+  const SignalAgreement &x = turns_[0], &y = turns_[1];
   if (x.count() < kFewestWindows || y.count() < kFewestWindows) return;
   const double along_x = x.correlation(), along_y = y.correlation();
   std::string cause;
@@ -213,7 +215,7 @@ void LegCheck::check_turning(std::vector<ReadingWarning>& found) const {
 /// Warns of legs whose velocity changes otherwise than the accelerometer says.
 void LegCheck::check_acceleration(std::vector<ReadingWarning>& found) const {
   for (std::size_t axis = 0; axis < changes_.size(); ++axis) {
-    const Agreement& change = changes_[axis];
+    const SignalAgreement& change = changes_[axis];
     if (change.count() < kFewestWindows) continue;
     const double correlation = change.correlation();
     const bool scaled = correlation > kClear && !is_scale(change.scale());

@@ -24,7 +24,7 @@ struct StandingFoot {
 };
 
 /// How two signals that should be the same agree.
-class Agreement {
+class SignalAgreement {
  public:
   void add(double first, double second);
   int count() const { return count_; }
@@ -89,9 +89,10 @@ class LegCheck {
   Eigen::Vector3d turning_ = Eigen::Vector3d::Zero();   ///< the last angular velocity [rad/s]
   Eigen::Vector3d place_ = Eigen::Vector3d::Zero();     ///< of the IMU in the base [m]
   Window window_;
-  std::optional<Velocities> before_;       ///< of the window before
-  std::array<Agreement, 2> turns_;         ///< of feet, along x and y, and gyro
-  std::array<Agreement, 2> changes_;       ///< of velocity by legs and accelerometer, along x and y
+  std::optional<Velocities> before_;      ///< of the window before
+  std::array<SignalAgreement, 2> turns_;  ///< of feet, along x and y, and gyro
+  std::array<SignalAgreement, 2>
+      changes_;                            ///< of velocity by legs and accelerometer, along x and y
   std::array<Stance, kLegCount> stances_;  ///< while the robot walks
 };
 
