@@ -161,6 +161,16 @@ void warn_of_legs(MessageSource& bag, RecordingSetup& setup) {
        WarnedSensor::kLegs});
 }
 
+/// Of packets of the LiDAR that the capture lacks.
+void warn_of_packets(const BagSummary& summary, std::vector<ReadingWarning>& warnings) {
+  if (summary.lost_packets < kFewLostPackets) return;
+  warnings.push_back({"packets of the LiDAR are missing",
+                      fmt::format("{:.1f} % of the packets of the LiDAR are missing, by their "
+                                  "azimuths: its scans have holes",
+                                  1e2 * summary.lost_packets),
+                      WarnedSensor::kLidar});
+}
+
 /// Of files whose recorders had different clocks.
 void warn_of_recorders(const BagSummary& summary, std::vector<ReadingWarning>& warnings) {
   if (summary.clock_shift == 0) return;
@@ -201,6 +211,7 @@ Result<RecordingPlan> plan_recording(MessageSource& bag, const RecordingConfig& 
   if (!plan) return plan;
   plan->start = survey.start(bag.summary());
   warn_of_recorders(bag.summary(), plan->setup.warnings);
+  warn_of_packets(bag.summary(), plan->setup.warnings);
   if (plan->setup.has_joints && !knows_legs(given, bag, state_of_joints(channels, topics))) {
     warn_of_legs(bag, plan->setup);
   }
