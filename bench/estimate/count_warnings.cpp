@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
+
+#include "recordings/legs/leg_check.hpp"
 
 namespace aims {
 namespace {
@@ -94,7 +97,10 @@ void warn_of_legs(EstimateResult& result) {
                      "serves there (contact_threshold, contact_detection)",
                      none, samples));
   }
-  if (const int apart = count_of(result, "feet_in_contact_disagree"); apart > kDisagree * samples) {
+  const bool named =
+      std::ranges::count(result.setup.warnings, kFeetAgainstGyro, &ReadingWarning::reason) > 0;
+  if (const int apart = count_of(result, "feet_in_contact_disagree");
+      !named && apart > kDisagree * samples) {
     warn("feet in contact disagree",
          fmt::format("the feet in contact state different velocities in {} of {:.0f} samples: is "
                      "the order of the joints and of the feet right (joint_names, foot_names), "

@@ -24,6 +24,8 @@ struct BagOpenOptions {
   std::size_t memory_limit = std::size_t{1} << 30;
   /// Further files or folders of the same recording, merged in order of record time.
   std::vector<std::filesystem::path> with = {};
+  /// Put files of recorders whose clocks differ on one clock, by the stamps of their messages.
+  bool one_clock = false;
 };
 
 /// A file whose messages lie in chunks.

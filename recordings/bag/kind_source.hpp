@@ -53,6 +53,8 @@ class KindSource : public MessageSource {
     summary_.lost_bytes = lost;
   }
 
+  void set_lost_packets(double fraction) { summary_.lost_packets = fraction; }
+
  private:
   std::vector<BagConnection> connections_;
   std::vector<bool> chosen_;

@@ -5,15 +5,17 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 namespace aims {
 
-void MergedSource::add(std::unique_ptr<MessageSource> source) {
+void MergedSource::add(std::unique_ptr<MessageSource> source, Duration shift) {
   Part part;
+  part.shift = shift;
   part.source = std::move(source);
   join_connections(part);
-  add_summary(part.source->summary());
+  add_summary(part.source->summary(), shift);
   parts_.push_back(std::move(part));
 }
 
@@ -34,18 +36,22 @@ void MergedSource::join_connections(Part& part) {
   }
 }
 
-void MergedSource::add_summary(const BagSummary& part) {
+void MergedSource::add_summary(const BagSummary& part, Duration shift) {
   ++summary_.chunks;
   summary_.file_size += part.file_size;
   summary_.lost_bytes += part.lost_bytes;
   summary_.indexed = summary_.indexed && part.indexed;
   summary_.closed = summary_.closed && part.closed;
   summary_.lost_messages += part.lost_messages;
+  summary_.lost_packets = std::max(summary_.lost_packets, part.lost_packets);
   compressions_.insert(part.compression);
   summary_.compression = fmt::format("{}", fmt::join(compressions_, ", "));
   if (part.messages == 0) return;
-  summary_.start = summary_.messages == 0 ? part.start : std::min(summary_.start, part.start);
-  summary_.end = summary_.messages == 0 ? part.end : std::max(summary_.end, part.end);
+  const bool first = summary_.messages == 0;
+  const Time start = part.start + shift, end = part.end + shift;
+  summary_.start = first ? start : std::min(summary_.start, start);
+  summary_.end = first ? end : std::max(summary_.end, end);
+  if (std::abs(shift) > std::abs(summary_.clock_shift)) summary_.clock_shift = shift;
   summary_.messages += part.messages;
 }
 
@@ -54,11 +60,13 @@ Result<std::optional<std::size_t>> MergedSource::earliest() {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Part& part = parts_[i];
     // A part that begins later is not touched yet: it may need much memory.
-    const bool later = first && parts_[*first].waiting->record_time < part.source->summary().start;
+    const bool later =
+        first && parts_[*first].waiting->record_time < part.source->summary().start + part.shift;
     if (!part.waiting && !part.ended && !later) {
       auto message = part.source->next();
       if (!message) return tl::unexpected(message.error());
       part.waiting = *message;
+      if (part.waiting) part.waiting->record_time += part.shift;
       part.ended = !part.waiting;
     }
     if (!part.waiting) continue;

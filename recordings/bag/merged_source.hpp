@@ -22,8 +22,8 @@ class MergedSource final : public MessageSource {
  public:
   explicit MergedSource(std::string name) : name_(std::move(name)) {}
 
-  /// Before the first call of `next`.
-  void add(std::unique_ptr<MessageSource> source);
+  /// Before the first call of `next`; `shift` is added to its record times.
+  void add(std::unique_ptr<MessageSource> source, Duration shift = 0);
   /// Counts bytes of a file that could not be opened.
   void lose(std::uint64_t bytes) { summary_.lost_bytes += bytes; }
   void set_compression(std::string name) { summary_.compression = std::move(name); }
@@ -40,6 +40,7 @@ class MergedSource final : public MessageSource {
  private:
   struct Part {
     std::unique_ptr<MessageSource> source;
+    Duration shift = 0;                 ///< of its record times
     std::vector<std::uint32_t> places;  ///< of its connections, by their ids, in the whole
     std::optional<BagMessage> waiting;  ///< its next message
     bool ended = false;
@@ -47,7 +48,7 @@ class MergedSource final : public MessageSource {
   using Key = std::tuple<std::string, std::string, std::string, Serialization, bool>;
 
   void join_connections(Part& part);
-  void add_summary(const BagSummary& part);
+  void add_summary(const BagSummary& part, Duration shift);
   /// Fetches the next message of each part that may be the next of all; returns the earliest.
   Result<std::optional<std::size_t>> earliest();
   void drop_copies(std::size_t first);

@@ -47,8 +47,13 @@ struct BagSummary {
   bool closed = true;                   ///< false: its writer never completed it
   std::uint64_t lost_messages = 0;      ///< with impossible times, when recovered
   std::uint64_t repeated_messages = 0;  ///< that several files hold, of those read so far
+  double lost_packets = 0.0;            ///< of a LiDAR's in a capture, as a fraction [0 to 1]
+  Duration clock_shift = 0;             ///< largest, of files of recorders whose clocks differ
   bool recorded_at_stamps = false;      ///< record times were all the same: stamps took their place
 };
+
+/// Lost packets that are named: a fraction.
+inline constexpr double kFewLostPackets = 0.005;
 
 /// Messages in order of record time: a bag, or the topics of a running robot.
 class MessageSource {

@@ -234,6 +234,12 @@ void warn_of_damage(const BagInfo& info, std::vector<std::string>& out) {
                     "left out",
                     summary.lost_messages));
   }
+  if (summary.lost_packets >= kFewLostPackets) {
+    out.push_back(
+        fmt::format("{:.1f} % of the packets of the LiDAR are missing, by their azimuths: "
+                    "check the network and the receive buffer of the recorder",
+                    1e2 * summary.lost_packets));
+  }
   if (summary.closed && summary.lost_bytes == 0) return;
   const auto known = format_by_content(info.file);
   const auto format = known ? known : format_by_name(info.file);

@@ -45,10 +45,23 @@ void UpDirection::add(const ImuSample& sample) {
   stamp_ = sample.stamp;
 }
 
+LegStream::LegStream(const LegStreamConfig& config)
+    : config_(config),
+      check_(config.source == LegSource::kKinematics ? config.geometry : LegGeometry()) {}
+
 void LegStream::add_imu(const ImuSample& sample) {
   if (!sample.angular_velocity.allFinite()) return;
   imu_ = sample;
   up_.add(sample);
+  check_imu(sample);
+}
+
+void LegStream::check_imu(const ImuSample& sample) {
+  const Pose T_base_body = config_.T_body_base.inverse();
+  ImuSample in_base = sample;
+  in_base.angular_velocity = T_base_body.rotation * sample.angular_velocity;
+  in_base.specific_force = T_base_body.rotation * sample.specific_force;
+  check_.add_imu(in_base, T_base_body.translation);
 }
 
 bool LegStream::same_instant(Time a, Time b) const {
@@ -228,11 +241,14 @@ std::optional<LegOdometrySample> LegStream::forward_kinematics(const WaitingJoin
   sample.angular_velocity =
       config_.T_body_base.rotation.conjugate() * waiting.imu->angular_velocity;
   std::vector<Eigen::Vector3d> velocities;
+  std::vector<StandingFoot> feet;
   for (int leg = 0; leg < kLegCount; ++leg) {
     if (!sample.contact[static_cast<std::size_t>(leg)]) continue;
     const LegMotion motion{Eigen::Vector3d(&sample.joint_position[3 * leg]),
                            Eigen::Vector3d(&sample.joint_velocity[3 * leg]),
                            sample.angular_velocity};
+    feet.push_back({leg, foot_in_base(leg, motion.q, config_.geometry),
+                    foot_jacobian(leg, motion.q, config_.geometry) * motion.rate});
     const bool rolls = config_.foot_model == FootModel::kRolling;
     const Eigen::Vector3d up = up_in_base().value_or(Eigen::Vector3d::UnitZ());
     velocities.push_back(rolls ? velocity_from_rolling_foot(leg, motion, up, config_.geometry)
@@ -241,6 +257,7 @@ std::optional<LegOdometrySample> LegStream::forward_kinematics(const WaitingJoin
   if (disagree(velocities)) ++counts["feet_in_contact_disagree"];
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& each : velocities) sum += each;
+  check_.add_feet(feet, sum / static_cast<double>(std::max<std::size_t>(1, feet.size())));
   return finish(std::move(sample), sum, static_cast<int>(velocities.size()), counts);
 }
 
@@ -275,11 +292,14 @@ std::optional<LegOdometrySample> LegStream::add_feet(FeetReading reading, EventC
   sample.angular_velocity = config_.T_body_base.rotation.conjugate() * imu_->angular_velocity;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   int feet = 0;
+  std::vector<StandingFoot> standing;
   for (std::size_t leg = 0; leg < reading.position.size(); ++leg) {
     if (!sample.contact[leg]) continue;
+    standing.push_back({static_cast<int>(leg), reading.position[leg], reading.velocity[leg]});
     sum -= reading.velocity[leg] + sample.angular_velocity.cross(reading.position[leg]);
     ++feet;
   }
+  check_.add_feet(standing, sum / std::max(1, feet));
   return finish(std::move(sample), sum, feet, counts);
 }
 

@@ -5,10 +5,12 @@
 #include <deque>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/leg_kinematics.hpp"
 #include "core/measurements.hpp"
 #include "recordings/event_counts.hpp"
+#include "recordings/legs/leg_check.hpp"
 #include "recordings/legs/leg_messages.hpp"
 #include "recordings/legs/twist_check.hpp"
 
@@ -43,7 +45,7 @@ struct LegStreamConfig {
 /// the recording; each call returns the sample that it completes.
 class LegStream {
  public:
-  explicit LegStream(const LegStreamConfig& config) : config_(config) {}
+  explicit LegStream(const LegStreamConfig& config);
 
   void add_imu(const ImuSample& sample);
   LegOdometrySample add_odometry(LegOdometrySample sample, EventCounts& counts);
@@ -55,6 +57,8 @@ class LegStream {
   std::optional<LegOdometrySample> add_contacts(const ContactReading& reading, EventCounts& counts);
   /// A further sample that the last call of these completed: of joints that waited with others.
   std::optional<LegOdometrySample> next(EventCounts& counts);
+  /// How legs and IMU contradict each other so far.
+  std::vector<ReadingWarning> warnings() const { return check_.warnings(); }
 
  private:
   /// Joints of an instant whose contacts may still come.
@@ -80,6 +84,7 @@ class LegStream {
                                                       EventCounts& counts);
   std::optional<LegOdometrySample> finish(LegOdometrySample sample, const Eigen::Vector3d& sum,
                                           int feet, EventCounts& counts);
+  void check_imu(const ImuSample& sample);
   static bool has_contacts(const std::optional<ImuSample>& imu, const ContactReading* contacts,
                            Time stamp, EventCounts& counts);
   std::optional<Eigen::Vector3d> up_in_base() const;
@@ -87,6 +92,7 @@ class LegStream {
   LegStreamConfig config_;
   UpDirection up_;
   TwistCheck twist_check_;
+  LegCheck check_;
   std::optional<ImuSample> imu_;
   std::optional<JointReading> joints_;
   std::optional<std::pair<FeetReading, std::array<bool, kLegCount>>> feet_;  ///< the last ones

@@ -13,6 +13,9 @@ namespace {
 // Unitree lists its legs FR, FL, RR, RL (unitree_legged_sdk, unitree_sdk2).
 constexpr std::array<int, kLegCount> kUnitree = {1, 0, 3, 2};
 
+// Unitree Go2: go2_description of unitree_ros.
+constexpr LegGeometry kGo2 = {0.1934, 0.0465, 0.0955, 0.213, 0.213, 0.022};
+
 // ANYmal C: anymal_c_simple_description. The hip joint lies (0.2999, 0.104) m from the centre, the
 // thigh's (0.0599, 0.08381) m from it, the knee (0.1003, -0.285) m (y, z) from that, and the foot
 // (0.08795, 0.01305, -0.33797) m from the knee: forward in front, backward behind.
@@ -33,15 +36,19 @@ constexpr BipedLegs kG1 = {{{{{0.0, 0.064452, -0.1027}, 0.0, 1},
 enum class Spelling { kCamelCase, kSnakeCase };
 
 constexpr StateLayout motors_of_unitree(std::string_view type, std::string_view topic,
-                                        std::string_view imu, Spelling spelling) {
+                                        std::string_view imu, Spelling spelling,
+                                        std::string_view robot = {},
+                                        const LegGeometry* geometry = nullptr) {
   const bool camel = spelling == Spelling::kCamelCase;
   return {.type = type,
+          .robot = robot,
           .topic = topic,
           .imu = imu,
           .angles = camel ? "motorState[].q" : "motor_state[].q",
           .rates = camel ? "motorState[].dq" : "motor_state[].dq",
           .contacts = camel ? "footForce" : "foot_force",
-          .legs = kUnitree};
+          .legs = kUnitree,
+          .geometry = geometry};
 }
 
 constexpr StateLayout actuators_of_anymal(std::string_view type) {
@@ -59,7 +66,8 @@ constexpr StateLayout actuators_of_anymal(std::string_view type) {
 }
 
 constexpr auto kStates = std::to_array<StateLayout>({
-    motors_of_unitree("unitree_go/LowState", "/lowstate", "imu_state", Spelling::kSnakeCase),
+    motors_of_unitree("unitree_go/LowState", "/lowstate", "imu_state", Spelling::kSnakeCase,
+                      "a Go2", &kGo2),
     {.type = "unitree_go/SportModeState",
      .topic = "/sportmodestate",
      .imu = "imu_state",

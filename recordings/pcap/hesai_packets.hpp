@@ -27,6 +27,9 @@ class HesaiScans {
   /// The last scan, if it is complete.
   std::optional<LidarScan> finish() { return revolutions_.finish(); }
 
+  /// Fraction of the turning without packets.
+  double missing() const { return revolutions_.missing(); }
+
  private:
   struct Block {
     const std::byte* returns = nullptr;  ///< of its first channel

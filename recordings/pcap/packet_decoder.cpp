@@ -75,6 +75,8 @@ class ScanDecoder final : public PacketDecoder {
     return has_points_of(scans_, payload);
   }
 
+  double lost() const override { return scans_.missing(); }
+
  private:
   std::string frame_;
   Scans scans_;

@@ -34,6 +34,8 @@ class PacketDecoder {
   virtual bool has_points(std::span<const std::byte> payload) const = 0;
   /// What scans lack to be complete; empty where that is not known.
   virtual std::string missing() const { return ""; }
+  /// Fraction of the packets of points that are missing in between [0 to 1].
+  virtual double lost() const { return 0.0; }
 };
 
 /// Of a Velodyne VLP-16; `frame` is that of the clouds.

@@ -170,6 +170,7 @@ Result<std::optional<KindSource::Made>> PcapReader::make() {
     if (!packet || !*packet) {
       auto last = pcap.decoder->finish();
       pcap.missing = pcap.decoder->missing();
+      set_lost_packets(pcap.decoder->lost());
       pcap.cut = pcap.packets.cut();
       if (!last) return std::optional<Made>();
       pcap.message = std::move(*last);

@@ -21,6 +21,8 @@ std::optional<LidarScan> Revolutions::begin_block(int azimuth, int turn) {
   overdue_ = late && azimuth > *azimuth_;
   block_ = azimuth;
   if (late) return ended;
+  turned_ += ahead;
+  if (turn_ > 0 && 2 * ahead > 3 * turn_) missed_ += ahead - turn_;
   if (azimuth_ && azimuth < *azimuth_) {
     if (whole_ && !scan_.points.empty()) ended = std::move(scan_);
     scan_ = LidarScan();

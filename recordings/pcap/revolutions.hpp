@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -29,6 +30,9 @@ class Revolutions {
   /// The last scan, if it is complete.
   std::optional<LidarScan> finish();
 
+  /// Fraction of the turning, between blocks, in which blocks are missing [0 to 1].
+  double missing() const { return turned_ == 0 ? 0.0 : double(missed_) / double(turned_); }
+
  private:
   /// A return before the first revolution that is there from its start.
   struct Early {
@@ -42,6 +46,8 @@ class Revolutions {
 
   LidarScan scan_;
   std::vector<Early> early_;
+  std::int64_t turned_ = 0;     ///< over all blocks [0.01 deg]
+  std::int64_t missed_ = 0;     ///< of it without blocks [0.01 deg]
   int block_ = 0;               ///< azimuth of the present block [0.01 deg]
   int turn_ = 0;                ///< of the head over the last block [0.01 deg]
   bool whole_ = false;          ///< the present revolution began at its start

@@ -40,6 +40,9 @@ class RobosenseScans {
   /// The last scan, if it is complete.
   std::optional<LidarScan> finish();
 
+  /// Fraction of the turning without packets.
+  double missing() const { return revolutions_.missing(); }
+
   static constexpr std::size_t kPacketSize = 1248;
 
  private:

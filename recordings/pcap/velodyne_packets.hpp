@@ -34,6 +34,9 @@ class VelodyneScans {
   /// The last scan, if it is complete.
   std::optional<LidarScan> finish() { return revolutions_.finish(); }
 
+  /// Fraction of the turning without packets.
+  double missing() const { return revolutions_.missing(); }
+
  private:
   void set_model(const VelodyneModel& model);
   void add_block(const std::byte* block, double turn, Time stamp);

@@ -23,6 +23,7 @@
 #include "recordings/rosbag2/rosbag2_reader.hpp"
 #include "recordings/rosbag2/rosbag2_writer.hpp"
 #include "recordings/source/compressed_clouds.hpp"
+#include "recordings/source/recorder_clocks.hpp"
 #include "recordings/source/split_imu.hpp"
 #include "recordings/source/stamped_source.hpp"
 
@@ -89,7 +90,7 @@ std::vector<fs::path> recordings_in(const fs::path& folder) {
 Result<std::unique_ptr<MessageSource>> merged(const std::string& name,
                                               const std::vector<fs::path>& files,
                                               const BagOpenOptions& options) {
-  auto all = std::make_unique<MergedSource>(name);
+  std::vector<std::unique_ptr<MessageSource>> sources;
   for (std::size_t i = 0; i < files.size(); ++i) {
     const bool again = std::any_of(files.begin(), files.begin() + static_cast<std::ptrdiff_t>(i),
                                    [&](const fs::path& each) { return is_same(each, files[i]); });
@@ -99,8 +100,12 @@ Result<std::unique_ptr<MessageSource>> merged(const std::string& name,
     }
     auto source = open_recording(files[i], options);
     if (!source) return tl::unexpected(source.error());
-    all->add(std::move(*source));
+    sources.push_back(std::move(*source));
   }
+  std::vector<Duration> shifts(sources.size(), 0);
+  if (options.one_clock) shifts = recorder_clock_shifts(sources);
+  auto all = std::make_unique<MergedSource>(name);
+  for (std::size_t i = 0; i < sources.size(); ++i) all->add(std::move(sources[i]), shifts[i]);
   return all;
 }
 
@@ -175,6 +180,7 @@ Result<std::unique_ptr<MessageSource>> open_recording(const fs::path& file,
 Result<std::unique_ptr<MessageSource>> open_sensor_recording(const fs::path& file,
                                                              BagOpenOptions options,
                                                              bool without_lidar) {
+  options.one_clock = true;
   auto source = open_recording(file, std::move(options));
   if (!source) return source;
   if (auto restored = restore_record_times(*source); !restored) {

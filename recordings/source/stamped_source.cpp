@@ -2,43 +2,19 @@
 #include "recordings/source/stamped_source.hpp"
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <utility>
 
-#include "recordings/messages/message_decoder.hpp"
+#include "recordings/source/message_stamps.hpp"
 
 namespace aims {
 namespace {
 
 constexpr std::uint64_t kFewMessages = 10;  ///< may have one record time by chance
 
-/// Reads stamps of the connections that have one.
-class Stamps {
- public:
-  explicit Stamps(const std::vector<BagConnection>& connections) {
-    for (const BagConnection& each : connections) {
-      auto decoder = MessageDecoder::create(each.type, each.definition, each.format);
-      if (decoder) decoders_.emplace(each.id, std::move(*decoder));
-    }
-  }
-
-  /// That of the message, above 0.
-  std::optional<Time> of(const BagMessage& message) const {
-    const auto decoder = decoders_.find(message.connection->id);
-    if (decoder == decoders_.end()) return std::nullopt;
-    const auto view = decoder->second.decode(message.data);
-    const auto stamp = view ? view->time("header.stamp") : std::nullopt;
-    return stamp && *stamp > 0 ? stamp : std::nullopt;
-  }
-
- private:
-  std::map<std::uint32_t, MessageDecoder> decoders_;
-};
-
 class StampedSource final : public MessageSource {
  public:
-  StampedSource(std::unique_ptr<MessageSource> source, Stamps stamps, Time start, Time end)
+  StampedSource(std::unique_ptr<MessageSource> source, MessageStamps stamps, Time start, Time end)
       : source_(std::move(source)),
         stamps_(std::move(stamps)),
         summary_(source_->summary()),
@@ -68,7 +44,7 @@ class StampedSource final : public MessageSource {
 
  private:
   std::unique_ptr<MessageSource> source_;
-  Stamps stamps_;
+  MessageStamps stamps_;
   BagSummary summary_;
   Time clock_;  ///< latest stamp so far
 };
@@ -78,7 +54,7 @@ class StampedSource final : public MessageSource {
 Result<void> restore_record_times(std::unique_ptr<MessageSource>& source) {
   const BagSummary& summary = source->summary();
   if (summary.start != summary.end || summary.messages < kFewMessages) return {};
-  Stamps stamps(source->connections());
+  MessageStamps stamps(source->connections());
   std::optional<Time> start;
   Time end = 0;
   while (true) {

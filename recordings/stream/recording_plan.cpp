@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 #include <utility>
 
 #include "recordings/frames/configured_extrinsic.hpp"
+#include "recordings/messages/message_types.hpp"
 #include "recordings/stream/recorded_legs.hpp"
 #include "recordings/stream/recording_survey.hpp"
 #include "recordings/topics/connection_decoders.hpp"
@@ -136,6 +138,50 @@ RecordingConfig with_recorded_legs(const RecordingConfig& given, MessageSource& 
   return config;
 }
 
+/// Whether the configuration, the recording's scenario or the type of its messages states the
+/// lengths of the legs.
+bool knows_legs(const RecordingConfig& given, MessageSource& bag, const StateLayout* state) {
+  return state != nullptr || given.leg_geometry != RecordingConfig().leg_geometry ||
+         recorded_legs(bag).has_value();
+}
+
+/// Of legs whose lengths nothing states. Who maps the columns of a table knows the robot: a note.
+void warn_of_legs(MessageSource& bag, RecordingSetup& setup) {
+  const double thigh = RecordingConfig().leg_geometry.thigh;
+  if (type_of(bag.connections(), setup.topics.contacts) == kFootForces) {
+    return setup.notes.push_back(
+        fmt::format("leg geometry: that of a Unitree Go1, thigh {} m (leg_geometry)", thigh));
+  }
+  setup.warnings.push_back(
+      {"lengths of the legs assumed",
+       fmt::format("nothing states the lengths of the legs: those of a Unitree Go1 are assumed "
+                   "(thigh {} m), and distances by the legs are wrong by as much as they are. Set "
+                   "recording.leg_geometry (of a Go1: {{hip_x: 0.1881, hip_y: 0.04675}})",
+                   thigh),
+       WarnedSensor::kLegs});
+}
+
+/// Of packets of the LiDAR that the capture lacks.
+void warn_of_packets(const BagSummary& summary, std::vector<ReadingWarning>& warnings) {
+  if (summary.lost_packets < kFewLostPackets) return;
+  warnings.push_back({"packets of the LiDAR are missing",
+                      fmt::format("{:.1f} % of the packets of the LiDAR are missing, by their "
+                                  "azimuths: its scans have holes",
+                                  1e2 * summary.lost_packets),
+                      WarnedSensor::kLidar});
+}
+
+/// Of files whose recorders had different clocks.
+void warn_of_recorders(const BagSummary& summary, std::vector<ReadingWarning>& warnings) {
+  if (summary.clock_shift == 0) return;
+  warnings.push_back(
+      {"clocks of the recorders differ",
+       fmt::format("the stamps of the files agree, but record times of one are {:.3f} s {} by "
+                   "another recorder's clock: its messages are merged by their stamps",
+                   std::abs(to_seconds(summary.clock_shift)),
+                   summary.clock_shift < 0 ? "ahead" : "behind")});
+}
+
 }  // namespace
 
 Result<RecordingPlan> plan_recording(MessageSource& bag, const RecordingConfig& given,
@@ -162,7 +208,13 @@ Result<RecordingPlan> plan_recording(MessageSource& bag, const RecordingConfig& 
   if (survey.needs_motion()) survey_motion(bag, topics, channels, survey);
   if (survey.learns_contacts()) survey_loads(bag, topics.contacts, survey);
   auto plan = survey.decide(bag.name(), std::move(notes));
-  if (plan) plan->start = survey.start(bag.summary());
+  if (!plan) return plan;
+  plan->start = survey.start(bag.summary());
+  warn_of_recorders(bag.summary(), plan->setup.warnings);
+  warn_of_packets(bag.summary(), plan->setup.warnings);
+  if (plan->setup.has_joints && !knows_legs(given, bag, state_of_joints(channels, topics))) {
+    warn_of_legs(bag, plan->setup);
+  }
   return plan;
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -11,9 +12,11 @@
 #include "recordings/legs/leg_stream.hpp"
 #include "recordings/source/recording_file.hpp"
 #include "recordings/stream/decided_start.hpp"
+#include "recordings/stream/missing_messages.hpp"
 #include "recordings/stream/record_clock.hpp"
 #include "recordings/stream/recording_plan.hpp"
 #include "recordings/stream/repeated_samples.hpp"
+#include "recordings/stream/stamp_leaps.hpp"
 #include "recordings/topics/recording_channels.hpp"
 #include "recordings/topics/topic_choice.hpp"
 
@@ -29,6 +32,9 @@ constexpr Duration kMaxLate = 5 * kSecond;
 /// Of a stamp 0 from the time at which its message was recorded, by the clock of the sensor.
 constexpr Duration kMaxUnset = kSecond;
 constexpr std::size_t kMaxHeldBytes = std::size_t{256} << 20;
+/// Fractions of messages whose loss spoils no estimate; drivers of legs often lose some.
+constexpr double kFewMissing = 0.02, kFewLegsMissing = 0.1;
+constexpr int kFewGaps = 5;  ///< that are pauses of a sensor
 
 /// The first role that the messages of a channel serve.
 std::optional<std::size_t> first_role(const Channel& channel) {
@@ -83,6 +89,11 @@ struct RecordingReader::Impl {
   void deliver(std::optional<LegOdometrySample> sample, std::vector<Delivery>& out);
   void malformed(Role role) { ++counts[std::string(name_of(role)) + "_malformed"]; }
   Time stamp_of(Role role, Time stamp, double delay) const;
+  Duration period_of(Role role) const;
+  void warn_of_missing(Role role, WarnedSensor sensor);
+  void find_leap(const BagMessage& message, const Channel& channel, const MessageView& view);
+  void warn_of_leaps();
+  void finish(std::vector<Delivery>& out);
 
   std::unique_ptr<MessageSource> bag;
   BagSummary summary;  ///< without record times that were never set
@@ -101,6 +112,10 @@ struct RecordingReader::Impl {
   Duration position = 0;
   std::array<std::optional<Time>, kRoleCount> last_stamps;
   std::array<std::string, kRoleCount> frames;  ///< of the first messages
+  std::array<MissingMessages, kRoleCount> missing;
+  SteadyTopic steady_imu;
+  std::array<StampLeaps, kRoleCount> leaps;
+  std::optional<Duration> leapt;  ///< by which the stamp of the current message is wrong
   Trajectory truth;
   std::optional<Time> last_true_stamp;
   EventCounts counts;
@@ -116,7 +131,7 @@ Result<void> RecordingReader::Impl::fetch() {
 /// The stamp of the delivery.
 Time RecordingReader::Impl::stamp_of(Role role, Time stamp, double delay) const {
   const bool recorded = plan.stamped_by_record[static_cast<std::size_t>(role)];
-  return (recorded ? record_time : stamp) - from_seconds(delay);
+  return (recorded ? record_time : stamp - leapt.value_or(0)) - from_seconds(delay);
 }
 
 void RecordingReader::Impl::deliver(Role role, Measurement measurement, Time stamp,
@@ -124,6 +139,7 @@ void RecordingReader::Impl::deliver(Role role, Measurement measurement, Time sta
   auto& last = last_stamps[static_cast<std::size_t>(role)];
   if (last && stamp <= *last) ++counts[std::string(name_of(role)) + "_stamp_not_increasing"];
   last = stamp;  // so that one stamp far ahead counts once
+  missing[static_cast<std::size_t>(role)].add(stamp, record_time, period_of(role));
   out.push_back({record_time + plan.arrival_shift, std::move(measurement)});
 }
 
@@ -282,12 +298,23 @@ bool RecordingReader::Impl::is_unset(const BagMessage& message, const Channel& c
 
 /// How long after its stamp and the usual latency a message was recorded; negative: before. Nothing
 /// where its stamp does not tell.
-std::optional<Duration> RecordingReader::Impl::lateness(const BagMessage& message,
-                                                        std::size_t role,
+std::optional<Duration> RecordingReader::Impl::lateness(const BagMessage& message, std::size_t role,
                                                         const MessageView& view) const {
   const auto stamp = view.time("header.stamp");
-  if (!stamp || !plan.latency[role] || plan.leaps[role]) return std::nullopt;
+  if (!stamp || !plan.latency[role] || plan.leaps[role] || leapt) return std::nullopt;
   return message.record_time - (*stamp + *plan.latency[role]);
+}
+
+/// By how much the stamp of a message is wrong, where it leapt and those of the IMU did not.
+void RecordingReader::Impl::find_leap(const BagMessage& message, const Channel& channel,
+                                      const MessageView& view) {
+  const auto role = first_role(channel);
+  if (!role || channel.is(Role::kTruth)) return;
+  const auto late = lateness(message, *role, view);
+  if (!late) return;
+  if (channel.is(Role::kImu)) return steady_imu.add(*late, message.record_time);
+  const Time stamp = message.record_time - *late - *plan.latency[*role];
+  leapt = leaps[*role].add(stamp, *late, message.record_time, steady_imu);
 }
 
 /// When a message arrives. One that is recorded before its stamp, as after the recorder's clock was
@@ -341,6 +368,7 @@ void RecordingReader::Impl::release(Time due, std::vector<Delivery>& out) {
 
 void RecordingReader::Impl::receive(const BagMessage& given, std::vector<Delivery>& out) {
   BagMessage message = given;
+  leapt.reset();
   const Channel* channel = channels.find(message);
   if (channel == nullptr) return;
   const auto view = channel->decoder.decode(message.data);
@@ -352,8 +380,11 @@ void RecordingReader::Impl::receive(const BagMessage& given, std::vector<Deliver
     record_time = last;
     return;
   }
+  if (view && !unset) find_leap(message, *channel, *view);
   if (view && !unset) message.record_time = arrival(message, *channel, *view);
-  release(message.record_time, out);
+  const auto wrong = std::exchange(leapt, std::nullopt);
+  release(message.record_time, out);  // others, whose stamps are right
+  leapt = wrong;
   record_time = message.record_time;
   position = std::max(position, record_time - plan.start);
   if (!view) {
@@ -367,6 +398,66 @@ void RecordingReader::Impl::receive(const BagMessage& given, std::vector<Deliver
     return;
   }
   if (!hold(message, *channel, *view)) take(*channel, *view, out);
+}
+
+/// Of the messages of a sensor; 0: not known.
+Duration RecordingReader::Impl::period_of(Role role) const {
+  if (role == Role::kLidar) return plan.cloud.period;
+  const auto& rate = role == Role::kImu ? plan.setup.imu_rate_hz : plan.setup.leg_rate_hz;
+  return rate && *rate > 0.0 ? from_seconds(1.0 / *rate) : 0;
+}
+
+/// Warns of many messages that were not recorded.
+void RecordingReader::Impl::warn_of_missing(Role role, WarnedSensor sensor) {
+  const MissingMessages& each = missing[static_cast<std::size_t>(role)];
+  const auto unset = counts.find("stamp_not_set");
+  const auto left_out = unset == counts.end() ? 0 : unset->second;
+  const auto lost = static_cast<double>(each.count() - left_out);
+  const double all = lost + static_cast<double>(each.received());
+  if (lost <= (role == Role::kLegs ? kFewLegsMissing : kFewMissing) * all) return;
+  if (each.gaps() < kFewGaps) return;
+  const std::string name(name_of(role));
+  counts[name + "_messages_missing"] = static_cast<int>(lost);
+  plan.setup.warnings.push_back(
+      {fmt::format("messages of the {} are missing", name),
+       fmt::format("{}: {:.0f} of {:.0f} messages are missing, by the gaps in their stamps "
+                   "({:.1f} %): the network, the recorder or the driver lost them",
+                   topic_of(plan.setup.topics, role), lost, all, 1e2 * lost / all),
+       sensor});
+}
+
+/// Warns of stamps of one topic that leapt.
+void RecordingReader::Impl::warn_of_leaps() {
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    const StampLeaps& each = leaps[i];
+    const Role role = static_cast<Role>(i);
+    if (each.count() == 0) continue;
+    counts[fmt::format("{}_stamps_leap", name_of(role))] = each.count();
+    if (steady_imu.was_always_steady()) {  // the first one that leapt was no matter of the recorder
+      counts.erase("recorded_before_their_stamp");
+      counts.erase("recorded_long_after_their_stamp");
+    }
+    plan.setup.warnings.push_back(
+        {fmt::format("stamps of the {} leap", name_of(role)),
+         fmt::format(
+             "{}: stamps leap by {:.3f} s after {:.1f} s, while those of the IMU do not: in "
+             "place of {} of them, record times and the usual delay serve",
+             topic_of(plan.setup.topics, role), to_seconds(each.leap()),
+             to_seconds(each.first() - plan.start), each.count())});
+  }
+}
+
+/// What the whole recording tells.
+void RecordingReader::Impl::finish(std::vector<Delivery>& out) {
+  leapt.reset();
+  release(std::numeric_limits<Time>::max(), out);
+  warn_of_leaps();
+  warn_of_missing(Role::kImu, WarnedSensor::kAny);
+  warn_of_missing(Role::kLidar, WarnedSensor::kLidar);
+  warn_of_missing(Role::kLegs, WarnedSensor::kLegs);
+  std::ranges::move(legs.warnings(), std::back_inserter(plan.setup.warnings));
+  const auto repeated = static_cast<int>(bag->summary().repeated_messages);
+  if (repeated > 0) counts["recorded_in_two_files"] = repeated;
 }
 
 Result<RecordingReader> RecordingReader::open(const std::filesystem::path& file,
@@ -431,11 +522,7 @@ Result<bool> RecordingReader::advance(Duration span, std::vector<Delivery>& deli
     impl.next.reset();
     if (auto ok = impl.fetch(); !ok) return tl::unexpected(ok.error());
   }
-  if (!impl.next) {
-    impl.release(std::numeric_limits<Time>::max(), deliveries);
-    const auto repeated = static_cast<int>(impl.bag->summary().repeated_messages);
-    if (repeated > 0) impl.counts["recorded_in_two_files"] = repeated;
-  }
+  if (!impl.next) impl.finish(deliveries);
   return impl.next.has_value();
 }
 

@@ -25,6 +25,8 @@ constexpr double kMaxTurnRate = 35.0;  ///< saturation of a gyro of 2000 deg/s [
 /// Median turn rate of no walking robot [rad/s].
 constexpr double kFastTurning = 4.0;
 constexpr double kLeastGravity = 0.5;  ///< of the mean force, as a fraction of the median norm
+/// Of a specific force in m/s^2, in the median.
+constexpr double kLeastForce = 5.0, kMostForce = 15.0;
 constexpr double kSlowImu = 5.0;       ///< [Hz]
 constexpr double kFastImu = 20'000.0;  ///< [Hz]
 
@@ -180,7 +182,7 @@ void RecordingSurvey::decide_force_unit(RecordingPlan& plan) {
                            force, mean));
   } else if (config_.imu_unit == ImuUnit::kAuto && any) {
     gravities = is_in_gravities(force);
-    if (!gravities && (force < 5.0 || force > 15.0)) warn_of_force(force);
+    if (!gravities && (force < kLeastForce || force > kMostForce)) warn_of_force(force);
   }
   if (gravities) {
     plan.force_scale = kStandardGravity;
@@ -209,6 +211,7 @@ void RecordingSurvey::decide_imu(RecordingPlan& plan) {
     notes.push_back("angular velocity in deg/s (recording.gyro_unit): converted to rad/s");
   }
   warn_of_gyro(plan);
+  warn_of_gravity(plan);
 }
 
 /// Warns of a gyro whose numbers no robot turns by.
@@ -231,6 +234,43 @@ void RecordingSurvey::warn_of_gyro(const RecordingPlan& plan) {
                             "table: gyro_unit of its mapping)",
                             fastest, turning));
   }
+}
+
+/// The mean specific force of the second without motion in which it is nearest to gravity.
+std::optional<double> RecordingSurvey::force_at_rest(const RecordingPlan& plan) const {
+  std::optional<double> nearest;
+  MotionWindow window;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int count = 0;
+  for (const ImuSample& each : first_samples_) {
+    if (window.length_to(each.stamp) >= kSecond) {
+      const double force = sum.norm() / count;
+      const bool nearer =
+          !nearest || std::abs(force - kStandardGravity) < std::abs(*nearest - kStandardGravity);
+      if (!window.moves() && nearer) nearest = force;
+      window = {};
+      sum.setZero();
+      count = 0;
+    }
+    const Eigen::Vector3d force = plan.force_scale * each.specific_force;
+    window.add(each.stamp, plan.turn_scale * each.angular_velocity, force);
+    sum += force;
+    ++count;
+  }
+  return nearest;
+}
+
+/// Warns of a robot at rest whose specific force is not gravity.
+void RecordingSurvey::warn_of_gravity(const RecordingPlan& plan) {
+  constexpr double kTolerance = 0.05;  // biases are below 0.02
+  const double force = force_at_rest(plan).value_or(kStandardGravity);
+  const double off = std::abs(force / kStandardGravity - 1.0);
+  // Beyond, the unit is warned of.
+  if (off < kTolerance || force < kLeastForce || force > kMostForce) return;
+  notes_.warn("accelerometer does not measure gravity",
+              fmt::format("specific force of {:.2f} m/s^2 at rest is {:.0f} % off gravity: the "
+                          "scale of the accelerometer or of one of its axes is wrong",
+                          force, 1e2 * off));
 }
 
 /// Warns of a robot that stands for no second of the first two: the estimate begins with the

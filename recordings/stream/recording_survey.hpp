@@ -105,6 +105,8 @@ class RecordingSurvey {
   void warn_of_force(double force);
   void decide_force_unit(RecordingPlan& plan);
   void warn_of_gyro(const RecordingPlan& plan);
+  std::optional<double> force_at_rest(const RecordingPlan& plan) const;
+  void warn_of_gravity(const RecordingPlan& plan);
   void warn_of_motion(const RecordingPlan& plan);
   void decide_imu(RecordingPlan& plan);
   void warn_of_odometry(const std::string& type);

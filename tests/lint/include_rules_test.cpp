@@ -54,7 +54,7 @@ const std::map<std::string, std::vector<std::string>> kAllowed = {
       "recordings/rosbag2/"}},
     {"recordings/source",
      {"core/", "recordings/bag/", "recordings/csv/", "recordings/mcap/", "recordings/messages/",
-      "recordings/pcap/", "recordings/rosbag2/", "recordings/source/"}},
+      "recordings/pcap/", "recordings/rosbag2/", "recordings/source/", "recordings/median.hpp"}},
     {"recordings/messages", {"core/", "recordings/messages/", "recordings/event_counts.hpp"}},
     {"recordings/clouds",
      {"core/", "recordings/messages/", "recordings/clouds/", "recordings/recording_config.hpp",

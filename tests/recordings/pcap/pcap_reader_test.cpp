@@ -337,6 +337,21 @@ TEST_F(Capture, PacketsInSwappedOrderMakeNoOtherScans) {
   }
 }
 
+TEST_F(Capture, PacketsThatAreMissingAreCounted) {
+  const auto packets = test::vlp16_packets(1'700'000'123 * kSecond, 3);
+  const auto lost = [&](std::size_t every) {
+    std::string frames;
+    for (std::size_t i = 0; i < packets.size(); ++i) {
+      if (every == 0 || i % every != 7) frames += frame({packets[i].payload});
+    }
+    const auto reader = read(frames);
+    EXPECT_TRUE(reader) << reader.error().message;
+    return reader ? reader->summary().lost_packets : -1.0;
+  };
+  EXPECT_EQ(lost(0), 0.0);
+  EXPECT_NEAR(lost(20), 0.05, 0.005);
+}
+
 TEST_F(Capture, OtherDatagramsOfItsSizeAreNoPackets) {
   std::string frames;
   for (const auto& each : test::vlp16_packets(1'700'000'123 * kSecond, 2)) {

@@ -40,6 +40,31 @@ class AssumedInputs : public test::RecordingTest {
     robot.close();
     return test::read_recording(bag(), config);
   }
+
+  /// An IMU, and clouds in a file of their own. `late`: when these begin after it and end after it;
+  /// `recorded`, `stamped`: by how much their recorder and their LiDAR are ahead.
+  void write_two_files(Duration late, Duration recorded, Duration stamped) {
+    std::filesystem::remove(bag());
+    std::filesystem::remove(clouds());
+    RobotRecording imu(bag());
+    imu.add_transforms(kMounted);
+    imu.add_imu(kStart, 500);
+    imu.close();
+    RobotRecording lidar(clouds());
+    for (int k = 0; k < 99; ++k) {
+      const Time stamp = kStart + late + k * kSecond / 10;
+      const auto cloud = test::RawCloud::of(stamp + stamped,
+                                            {{1.0F, 0.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F, 0.09F}});
+      lidar.add_cloud(cloud, stamp + kSecond / 10 + recorded);
+    }
+    lidar.close();
+  }
+
+  Result<RecordingReader> read_two_files() const {
+    return RecordingReader::open(bag(), {}, {.with = {clouds()}});
+  }
+
+  std::filesystem::path clouds() const { return folder_.path() / "clouds.bag"; }
 };
 
 TEST_F(AssumedInputs, AMotionCaptureIsNoLegOdometry) {
@@ -63,6 +88,58 @@ TEST_F(AssumedInputs, TheOnlyOdometryIsNamedAndThatOfAnotherEstimatorIsAWarning)
   RecordingConfig chosen;
   chosen.topics.leg_odometry = "/fast_lio/odometry";
   EXPECT_FALSE(warns(with_odometry("/fast_lio/odometry", chosen).setup, "another system"));
+}
+
+TEST_F(AssumedInputs, FilesOfRecordersWhoseClocksDifferAreMergedByStamps) {
+  for (const Duration ahead : {3 * kSecond / 2, 37 * kSecond, -3 * kSecond, 86'400 * kSecond}) {
+    write_two_files(0, ahead, 0);
+    auto reader = read_two_files();
+    ASSERT_TRUE(reader) << reader.error().message;
+    EXPECT_TRUE(warns(reader->setup(), "by another recorder's clock")) << to_seconds(ahead);
+    EXPECT_FALSE(warns(reader->setup(), "lidar_delay")) << to_seconds(ahead);
+    const auto deliveries = test::read_all(*reader);
+    ASSERT_TRUE(deliveries);
+    EXPECT_EQ(test::scans_of(*deliveries).size(), 99U);
+    Time last = 0;
+    for (const Delivery& each : *deliveries) {
+      EXPECT_GE(each.arrival, last);
+      EXPECT_LT(std::abs(each.arrival - stamp_of(each.measurement)), kSecond / 4)
+          << to_seconds(ahead) << ": at " << to_seconds(each.arrival);
+      last = each.arrival;
+    }
+  }
+}
+
+TEST_F(AssumedInputs, ALidarWhoseOwnClockDiffersIsNoMatterOfTheRecorders) {
+  for (const Duration late : {Duration{0}, 5 * kSecond, -5 * kSecond}) {
+    for (const Duration ahead : {3 * kSecond / 2, -3 * kSecond / 2}) {
+      write_two_files(late, 0, ahead);
+      const auto reader = read_two_files();
+      ASSERT_TRUE(reader) << reader.error().message;
+      EXPECT_FALSE(warns(reader->setup(), "recorder's clock")) << to_seconds(late);
+      EXPECT_TRUE(warns(reader->setup(), "set recording.lidar_delay=")) << to_seconds(late);
+    }
+  }
+}
+
+TEST_F(AssumedInputs, PartsOfOneRecordingStayOneBehindTheOther) {
+  RobotRecording first(bag()), second(clouds());
+  first.add_transforms(kMounted);
+  first.add_imu(kStart, 500);
+  first.add_clouds(kStart, 99);
+  // Its computer was started again, and counts from boot as before.
+  for (int k = 0; k < 500; ++k) {
+    ImuSample sample;
+    sample.stamp = kStart + k * 20 * kMillisecond;
+    sample.specific_force.z() = 9.81;
+    second.add("/imu", imu_type(), sample.stamp + 60 * kSecond,
+               imu_message({0, sample.stamp, "imu"}, sample));
+  }
+  first.close();
+  second.close();
+  const auto reader = read_two_files();
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_FALSE(warns(reader->setup(), "recorder's clock"));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // Legs of a recording without leg odometry.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "core/leg_kinematics.hpp"
@@ -94,6 +95,7 @@ struct TrotOptions {
   std::array<int, kLegCount> legs = {0, 1, 2, 3};
   std::array<int, kLegCount> feet = {0, 1, 2, 3};
   bool forces = true;
+  double knee_sign = 1.0;
 };
 
 MessageBytes trot_joints(Time stamp, const test::Trot& trot, double time,
@@ -138,7 +140,7 @@ class RecordedTrot : public test::RecordingTest {
                                     std::string(80, '=') +
                                     "\nMSG: std_msgs/MultiArrayDimension\nstring label\n"
                                     "uint32 size\nuint32 stride\n"};
-    const test::Trot trot;
+    const test::Trot trot = {.knee_sign = options.knee_sign};
     for (int k = 0; k < 400; ++k) {
       const Time now = kStart + k * 10 * kMillisecond;
       const double time = 0.01 * k + 0.003;
@@ -196,6 +198,21 @@ TEST_F(RecordedTrot, AnglesInDegreesAreNamedAndConverted) {
   EXPECT_FALSE(right.noted("are they in degrees?"));
   EXPECT_NEAR(speed(right), test::Trot::kSpeed, 0.02);
   EXPECT_FALSE(read({}).noted("are they in degrees?"));
+}
+
+TEST_F(RecordedTrot, LengthsOfTheLegsThatNothingStatesAreAWarning) {
+  const auto is_assumed = [](const ReadingWarning& each) {
+    return each.reason == "lengths of the legs assumed" && each.sensor == WarnedSensor::kLegs;
+  };
+  EXPECT_EQ(std::ranges::count_if(read({}).setup.warnings, is_assumed), 1);
+  RecordingConfig config;
+  config.leg_geometry.hip_x = 0.1881;
+  EXPECT_EQ(std::ranges::count_if(read({}, config).setup.warnings, is_assumed), 0);
+}
+
+TEST_F(RecordedTrot, KneesOfTheWrongSignAreNamedAtTheEnd) {
+  EXPECT_FALSE(read({}).noted("below its hip"));
+  EXPECT_TRUE(read({.knee_sign = -1.0}).noted("below its hip"));
 }
 
 TEST_F(RecordedTrot, TorquesOfTheKneesBelowTheThresholdAreLearned) {

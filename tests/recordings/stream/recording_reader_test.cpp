@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <numbers>
@@ -640,6 +641,25 @@ TEST_F(RecordingReaderTest, ImuUnitsFollowFromTheNormOrTheConfiguration) {
   EXPECT_DOUBLE_EQ(first_force(read(3.0, config)), 3.0 * 9.80665);
 }
 
+TEST_F(RecordingReaderTest, AnAccelerometerThatDoesNotMeasureGravityAtRestIsNamed) {
+  // Of a robot that stands for 5 s and measures these forces, at first and later.
+  const auto is_named = [this](double first, double later) {
+    std::filesystem::remove(bag());
+    RobotRecording robot(bag());
+    robot.add_transforms(kMounted);
+    robot.add_imu(kStart, 50, first);
+    robot.add_imu(kStart + kSecond, 200, later);
+    robot.add_clouds(kStart, 3);
+    robot.close();
+    return test::read_recording(bag()).noted("% off gravity");
+  };
+  EXPECT_TRUE(is_named(10.8, 10.8));
+  EXPECT_TRUE(is_named(9.0, 9.0));
+  EXPECT_FALSE(is_named(9.6, 9.6)) << "a bias";
+  EXPECT_FALSE(is_named(9.0, 9.7)) << "a filter that settles";
+  EXPECT_FALSE(is_named(1.0, 1.0)) << "in g";
+}
+
 TEST_F(RecordingReaderTest, AGyroInDegreesIsConvertedWhereTheConfigurationSaysSo) {
   RobotRecording robot(bag());
   ImuSample sample;
@@ -661,13 +681,15 @@ TEST_F(RecordingReaderTest, AGyroInDegreesIsConvertedWhereTheConfigurationSaysSo
   EXPECT_NEAR((turn - Eigen::Vector3d(0.5, 0.0, -1.0) * std::numbers::pi).norm(), 0.0, 1e-12);
 }
 
-/// An IMU of 50 Hz at rest for 6 s with clouds, whose stamps and record times `times` changes.
+/// An IMU of 50 Hz at rest, by default for 6 s, with clouds, whose stamps and record times `times`
+/// changes.
 using ChangeTimes = std::function<void(bool cloud, Time& stamp, Time& recorded)>;
-Recording read_with_times(const std::filesystem::path& bag, const ChangeTimes& times) {
+Recording read_with_times(const std::filesystem::path& bag, const ChangeTimes& times,
+                          int samples = 300) {
   RobotRecording robot(bag);
   robot.add_transforms(kMounted);
   const Time begin = 1'700'000'000 * kSecond;
-  for (int k = 0; k < 300; ++k) {
+  for (int k = 0; k < samples; ++k) {
     ImuSample sample;
     sample.stamp = begin + k * 20 * kMillisecond;
     sample.specific_force.z() = 9.81;
@@ -685,6 +707,27 @@ Recording read_with_times(const std::filesystem::path& bag, const ChangeTimes& t
 
 constexpr Time kLeap = 1'700'000'003 * kSecond;
 
+TEST_F(RecordingReaderTest, MissingMessagesAreCountedAndNamed) {
+  // Of every so many messages of the IMU one is lost; all others come with jitter.
+  const auto read = [this](int every) {
+    std::filesystem::remove(bag());
+    RobotRecording robot(bag());
+    robot.add_transforms(kMounted);
+    for (int k = 0; k < 1000; ++k) {
+      if (every > 0 && k % every == 7) continue;
+      robot.add_imu(kStart + k * 20 * kMillisecond + (k * 7919 % 1000) * 3000, 1);
+    }
+    robot.add_clouds(kStart, 100);
+    robot.close();
+    return test::read_recording(bag());
+  };
+  EXPECT_FALSE(read(0).noted("are missing"));
+  const Recording lossy = read(10);
+  EXPECT_TRUE(lossy.noted("/imu: 100 of 1000 messages are missing"));
+  EXPECT_EQ(lossy.counts.at("imu_messages_missing"), 100);
+  EXPECT_FALSE(read(200).noted("are missing")) << "a few";
+}
+
 // The survey sees the first 100 clouds.
 TEST_F(RecordingReaderTest, StampsOfOneTopicThatLeapAreNamed) {
   const Recording read = read_with_times(bag(), [](bool cloud, Time& stamp, Time&) {
@@ -693,6 +736,41 @@ TEST_F(RecordingReaderTest, StampsOfOneTopicThatLeapAreNamed) {
   EXPECT_TRUE(read.noted("/points: stamps leap by 37.000 s, 3.0 s after its first message"));
   EXPECT_FALSE(read.noted("lidar_delay"));
   EXPECT_FALSE(read.counts.contains("recorded_before_their_stamp"));
+}
+
+TEST_F(RecordingReaderTest, StampsThatLeapBehindTheSurveyAreReplacedByRecordTimes) {
+  constexpr Time kLate = kLeap + 11 * kSecond;  // the survey ends before it
+  for (const Duration leap : {37 * kSecond, kSecond, -37 * kSecond}) {
+    std::filesystem::remove(bag());
+    const auto leaps = [leap](bool cloud, Time& stamp, Time&) {
+      if (cloud && stamp >= kLate) stamp += leap;
+    };
+    const Recording read = read_with_times(bag(), leaps, 900);
+    EXPECT_TRUE(read.noted("/points: stamps leap by ")) << to_seconds(leap);
+    EXPECT_EQ(read.counts.at("lidar_stamps_leap"), 39) << "all but the first";
+    EXPECT_FALSE(read.counts.contains("recorded_before_their_stamp"));
+    EXPECT_FALSE(read.counts.contains("recorded_long_after_their_stamp"));
+    int right = 0;
+    for (const LidarScanPtr& scan : test::scans_of(read.deliveries)) {
+      const Duration since = scan->stamp - 1'700'000'000 * kSecond;
+      right += since % (kSecond / 10) == 0 && since < 18 * kSecond ? 1 : 0;
+    }
+    EXPECT_GE(right, 179);
+  }
+}
+
+TEST_F(RecordingReaderTest, ARecorderThatIsSetBehindTheSurveyIsNoLeapOfStamps) {
+  constexpr Time kLate = kLeap + 11 * kSecond;
+  for (const Duration step : {-2 * kSecond, 3600 * kSecond}) {
+    std::filesystem::remove(bag());
+    const Recording read = read_with_times(
+        bag(),
+        [step](bool, Time& stamp, Time& recorded) {
+          if (stamp >= kLate) recorded += step;
+        },
+        900);
+    EXPECT_FALSE(read.noted("stamps leap by")) << to_seconds(step);
+  }
 }
 
 TEST_F(RecordingReaderTest, ARecorderThatIsSetForwardMovesNoArrival) {

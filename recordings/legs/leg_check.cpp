@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/legs/leg_check.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace aims {
+namespace {
+
+constexpr Duration kWindow = kSecond / 2;
+constexpr double kMaxStep = 0.1;        ///< between samples of the IMU [s]
+constexpr double kLevellingRate = 0.2;  ///< of the attitude to the specific force [1/s]
+constexpr int kFewestSamples = 8;       ///< of a window
+constexpr int kFewestWindows = 8;       ///< that a judgement needs
+constexpr double kTurning = 0.15;       ///< of a window that counts [rad/s]
+constexpr double kLeastWeight = 0.01;   ///< squared distance of feet that show a turn [m^2]
+constexpr double kAccelerating = 0.1;   ///< change of velocity that counts [m/s]
+constexpr double kWalking = 0.15;       ///< [m/s]
+constexpr double kOpposite = -0.5;      ///< correlation
+constexpr double kRelated = 0.5;        ///< below feet and gyro have nothing in common
+constexpr double kClear = 0.7;          ///< correlation whose scale is judged
+/// Of feet to the IMU; 0.7 on a real robot, whose feet count as standing while they lift off.
+constexpr double kLeastScale = 0.55, kMostScale = 1.7;
+constexpr double kLeastDegrees = 30.0, kMostDegrees = 110.0;  ///< of deg/s: 57
+constexpr int kFewestStances = 100;                           ///< samples
+constexpr double kLeastDepth = 0.35;  ///< of a foot in contact below its hip, of the leg's length
+constexpr double kStraight = 0.95;    ///< no robot walks on straight knees
+constexpr double kMostApart = 0.5;    ///< in front of or behind its hip
+
+bool is_scale(double scale) { return scale > kLeastScale && scale < kMostScale; }
+
+bool is_degrees(double scale) { return scale > kLeastDegrees && scale < kMostDegrees; }
+
+}  // namespace
+
+void SignalAgreement::add(double first, double second) {
+  if (!std::isfinite(first) || !std::isfinite(second)) return;
+  ++count_;
+  first_squared_ += first * first;
+  second_squared_ += second * second;
+  product_ += first * second;
+}
+
+double SignalAgreement::correlation() const {
+  const double both = first_squared_ * second_squared_;
+  return both > 0.0 ? product_ / std::sqrt(both) : 0.0;
+}
+
+double SignalAgreement::scale() const {
+  return second_squared_ > 0.0 ? product_ / second_squared_ : 0.0;
+}
+
+void LegCheck::add_imu(const ImuSample& sample, const Eigen::Vector3d& place) {
+  const double force = sample.specific_force.norm();
+  if (!std::isfinite(force) || !(force > 0.1) || !sample.angular_velocity.allFinite()) return;
+  const Eigen::Vector3d up = sample.specific_force / force;
+  const double step = last_ ? to_seconds(sample.stamp - *last_) : 0.0;
+  if (!last_ || step <= 0.0 || step > kMaxStep) {
+    R_world_base_ = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ());
+    window_ = {};
+    before_.reset();
+    begin_ = sample.stamp;
+  } else {
+    const Eigen::Vector3d predicted = R_world_base_.conjugate() * Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d turned =
+        step * (sample.angular_velocity + kLevellingRate * up.cross(predicted));
+    R_world_base_ = (R_world_base_ * so3_exp(turned)).normalized();
+    velocity_ += R_world_base_ * sample.specific_force * step;
+  }
+  last_ = sample.stamp;
+  turning_ = sample.angular_velocity;
+  place_ = place;
+  ++window_.imu;
+  window_.by_force += velocity_;
+  if (sample.stamp - begin_ >= kWindow) close();
+}
+
+void LegCheck::add_feet(const std::vector<StandingFoot>& feet, const Eigen::Vector3d& velocity) {
+  if (!last_ || feet.empty() || !velocity.allFinite()) return;
+  ++window_.legs;
+  window_.by_legs += R_world_base_ * (velocity + turning_.cross(place_));
+  window_.speed += velocity.norm();
+  const Eigen::Vector3d up = R_world_base_.conjugate() * Eigen::Vector3d::UnitZ();
+  for (const StandingFoot& foot : feet) {
+    const Eigen::Vector3d from_hip = foot.position - hip_in_base(foot.leg, geometry_);
+    Stance& stance = window_.stances[static_cast<std::size_t>(foot.leg)];
+    ++stance.samples;
+    stance.depth -= up.dot(from_hip);
+    stance.apart += from_hip.x();
+  }
+  for (std::size_t i = 1; i < feet.size(); ++i) {
+    // The velocities of feet that stand differ by the turning of the base alone.
+    const Eigen::Vector3d apart = feet[i].position - feet[0].position;
+    const Eigen::Vector3d faster = feet[i].velocity - feet[0].velocity;
+    ++window_.pairs;
+    window_.gyro += turning_.z();
+    window_.by_feet += Eigen::Vector2d(apart.y() * faster.x(), -apart.x() * faster.y());
+    window_.weight += Eigen::Vector2d(apart.y() * apart.y(), apart.x() * apart.x());
+  }
+}
+
+void LegCheck::close() {
+  compare_turning();
+  compare_velocities();
+  if (window_.legs >= kFewestSamples && window_.speed > kWalking * window_.legs) {
+    for (std::size_t leg = 0; leg < stances_.size(); ++leg) {
+      stances_[leg].samples += window_.stances[leg].samples;
+      stances_[leg].depth += window_.stances[leg].depth;
+      stances_[leg].apart += window_.stances[leg].apart;
+    }
+  }
+  window_ = {};
+  begin_ = *last_;
+}
+
+void LegCheck::compare_turning() {
+  if (window_.pairs < kFewestSamples) return;
+  const double gyro = window_.gyro / window_.pairs;
+  if (std::abs(gyro) < kTurning) return;
+  for (int axis = 0; axis < 2; ++axis) {
+    if (window_.weight[axis] < kLeastWeight * window_.pairs) continue;
+    turns_[static_cast<std::size_t>(axis)].add(window_.by_feet[axis] / window_.weight[axis], gyro);
+  }
+}
+
+void LegCheck::compare_velocities() {
+  std::optional<Velocities> now;
+  if (window_.legs >= kFewestSamples && window_.imu >= kFewestSamples) {
+    now = Velocities{window_.by_force / window_.imu, window_.by_legs / window_.legs};
+  }
+  const auto before = std::exchange(before_, now);
+  if (!before || !now) return;
+  const auto in_base = [&](const Eigen::Vector3d& change) {
+    const double yaw = yaw_of(R_world_base_);
+    return Eigen::Vector2d((yaw_rotation(-yaw) * change).head<2>());
+  };
+  const Eigen::Vector2d by_force = in_base(now->by_force - before->by_force);
+  const Eigen::Vector2d by_legs = in_base(now->by_legs - before->by_legs);
+  for (int axis = 0; axis < 2; ++axis) {
+    if (std::abs(by_force[axis]) < kAccelerating) continue;
+    changes_[static_cast<std::size_t>(axis)].add(by_legs[axis], by_force[axis]);
+  }
+}
+
+/// Warns of legs that no robot walks on.
+void LegCheck::check_stances(std::vector<ReadingWarning>& found) const {
+  const double length = geometry_.thigh + geometry_.calf;
+  std::vector<std::string> odd;
+  for (std::size_t leg = 0; leg < stances_.size(); ++leg) {
+    const Stance& stance = stances_[leg];
+    if (stance.samples < kFewestStances || !(length > 0.0)) continue;
+    const double depth = stance.depth / stance.samples;
+    const double apart = stance.apart / stance.samples;
+    if (depth < kLeastDepth * length || depth > kStraight * length) {
+      odd.push_back(fmt::format("{} {:.2f} m below its hip", kLegNames[leg], depth));
+    } else if (std::abs(apart) > kMostApart * length) {
+      odd.push_back(fmt::format("{} {:.2f} m {} its hip", kLegNames[leg], std::abs(apart),
+                                apart > 0.0 ? "in front of" : "behind"));
+    }
+  }
+  if (odd.empty()) return;
+  found.push_back({"joint angles do not fit a walking robot",
+                   fmt::format("by the joint angles the feet in contact are, in the mean, {}, with "
+                               "legs of {:.2f} m: the zero, a sign or the unit of the joints is "
+                               "another one, or their order (joint_names) or lengths "
+                               "(leg_geometry)",
+                               fmt::join(odd, ", "), length),
+                   WarnedSensor::kLegs});
+}
+
+/// Warns of feet that turn against the base otherwise than the gyro says.
+void LegCheck::check_turning(std::vector<ReadingWarning>& found) const {
+  const SignalAgreement &x = turns_[0], &y = turns_[1];
+  if (x.count() < kFewestWindows || y.count() < kFewestWindows) return;
+  const double along_x = x.correlation(), along_y = y.correlation();
+  std::string cause;
+  if (along_x < kOpposite && along_y < kOpposite) {
+    cause =
+        "z of the gyro or all joints have the wrong sign, or the legs are in the opposite order "
+        "(joint_names, foot_names)";
+  } else if (along_x < kOpposite && along_y > kClear) {
+    cause = "the legs of the left and the right are exchanged (joint_names, foot_names)";
+  } else if (along_x > kClear && along_y < kOpposite) {
+    cause =
+        "front and rear legs are exchanged (joint_names, foot_names), or the sign of the "
+        "abductions is wrong";
+  } else if (std::min(along_x, along_y) < kRelated) {
+    cause =
+        "the order of the legs (joint_names, foot_names), or the sign or zero of joints is "
+        "wrong";
+  } else if (std::min(along_x, along_y) < kClear || (is_scale(x.scale()) && is_scale(y.scale()))) {
+    return;
+  } else if (is_degrees(1.0 / x.scale()) && is_degrees(1.0 / y.scale())) {
+    cause = "the gyro is in deg/s: set recording.gyro_unit=deg/s (of a table: gyro_unit: deg/s)";
+  } else if (is_degrees(x.scale()) && is_degrees(y.scale())) {
+    cause = "the rates of the joints are in deg/s";
+  } else {
+    cause =
+        "the scale of the gyro or the rates, zero or lengths (leg_geometry) of the legs are "
+        "wrong";
+  }
+  found.push_back(
+      {kFeetAgainstGyro,
+       fmt::format("in turns the feet in contact and the gyro contradict each other: "
+                   "{:.2g} and {:.2g} times the gyro's rate along x and y, correlation "
+                   "{:.2f} and {:.2f} over {} half seconds: {}",
+                   x.scale(), y.scale(), along_x, along_y, std::min(x.count(), y.count()), cause),
+       WarnedSensor::kLegs});
+}
+
+/// Warns of legs whose velocity changes otherwise than the accelerometer says.
+void LegCheck::check_acceleration(std::vector<ReadingWarning>& found) const {
+  for (std::size_t axis = 0; axis < changes_.size(); ++axis) {
+    const SignalAgreement& change = changes_[axis];
+    if (change.count() < kFewestWindows) continue;
+    const double correlation = change.correlation();
+    const bool scaled = correlation > kClear && !is_scale(change.scale());
+    if (correlation > kOpposite && !scaled) continue;
+    const char name = "xy"[axis];
+    const std::string cause =
+        scaled
+            ? "the lengths (leg_geometry), the zero or the unit of the joints, or the IMU is wrong"
+            : fmt::format(
+                  "{} of the accelerometer, or the joints that move the feet along {}, "
+                  "have the wrong sign",
+                  name, name);
+    found.push_back({"legs contradict the accelerometer",
+                     fmt::format("the velocity along {} by the legs changes by {:.2g} times what "
+                                 "the accelerometer says (correlation {:.2f} over {} half "
+                                 "seconds): {}",
+                                 name, change.scale(), correlation, change.count(), cause),
+                     WarnedSensor::kLegs});
+  }
+}
+
+std::vector<ReadingWarning> LegCheck::warnings() const {
+  std::vector<ReadingWarning> found;
+  check_stances(found);
+  check_turning(found);
+  check_acceleration(found);
+  return found;
+}
+
+}  // namespace aims

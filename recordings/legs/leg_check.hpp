@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/leg_kinematics.hpp"
+#include "core/measurements.hpp"
+#include "recordings/reading_notes.hpp"
+
+namespace aims {
+
+/// The reason of a warning of feet that turn otherwise than the gyro says.
+inline constexpr const char* kFeetAgainstGyro = "feet in contact contradict the gyro";
+
+/// A foot in contact, in base axes, against the base.
+struct StandingFoot {
+  int leg = 0;
+  Eigen::Vector3d position;  ///< [m]
+  Eigen::Vector3d velocity;  ///< [m/s]
+};
+
+/// How two signals that should be the same agree.
+class SignalAgreement {
+ public:
+  void add(double first, double second);
+  int count() const { return count_; }
+  double correlation() const;  ///< about zero
+  double scale() const;        ///< of the first to the second, by least squares
+
+ private:
+  int count_ = 0;
+  double first_squared_ = 0.0, second_squared_ = 0.0, product_ = 0.0;
+};
+
+/// Checks legs and IMU by each other over half seconds of a walk, since single samples of feet say
+/// little: feet in contact lie below the hips, they turn against the base as the gyro says, and
+/// their velocity changes as the accelerometer says.
+class LegCheck {
+ public:
+  /// Without lengths of the legs it is not judged where the feet are.
+  explicit LegCheck(const LegGeometry& geometry) : geometry_(geometry) {}
+
+  /// In base axes; `place` is that of the IMU in the base.
+  void add_imu(const ImuSample& sample, const Eigen::Vector3d& place);
+  /// The feet in contact and the velocity of the base that they state, in base axes.
+  void add_feet(const std::vector<StandingFoot>& feet, const Eigen::Vector3d& velocity);
+
+  /// What contradicts; nothing with too little motion.
+  std::vector<ReadingWarning> warnings() const;
+
+ private:
+  /// Sums over feet in contact.
+  struct Stance {
+    int samples = 0;
+    double depth = 0.0;  ///< below the hip [m]
+    double apart = 0.0;  ///< in front of it [m]
+  };
+  /// Sums over half a second.
+  struct Window {
+    int imu = 0, legs = 0, pairs = 0;
+    Eigen::Vector3d by_force = Eigen::Vector3d::Zero();  ///< velocity of the IMU, world axes
+    Eigen::Vector3d by_legs = Eigen::Vector3d::Zero();   ///< likewise
+    double speed = 0.0;                                  ///< by the legs, without direction
+    double gyro = 0.0;                                   ///< turn rate about z
+    /// Turn rate about z by what pairs of feet do along x and y, weighted, and the weights.
+    Eigen::Vector2d by_feet = Eigen::Vector2d::Zero(), weight = Eigen::Vector2d::Zero();
+    std::array<Stance, kLegCount> stances;
+  };
+  /// Mean velocities of a window.
+  struct Velocities {
+    Eigen::Vector3d by_force, by_legs;
+  };
+  void close();
+  void compare_turning();
+  void compare_velocities();
+  void check_stances(std::vector<ReadingWarning>& found) const;
+  void check_turning(std::vector<ReadingWarning>& found) const;
+  void check_acceleration(std::vector<ReadingWarning>& found) const;
+
+  LegGeometry geometry_;
+  std::optional<Time> last_;  ///< stamp of the IMU
+  Time begin_ = 0;            ///< of the window
+  Eigen::Quaterniond R_world_base_ = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< integrated, of the IMU [m/s]
+  Eigen::Vector3d turning_ = Eigen::Vector3d::Zero();   ///< the last angular velocity [rad/s]
+  Eigen::Vector3d place_ = Eigen::Vector3d::Zero();     ///< of the IMU in the base [m]
+  Window window_;
+  std::optional<Velocities> before_;      ///< of the window before
+  std::array<SignalAgreement, 2> turns_;  ///< of feet, along x and y, and gyro
+  std::array<SignalAgreement, 2>
+      changes_;                            ///< of velocity by legs and accelerometer, along x and y
+  std::array<Stance, kLegCount> stances_;  ///< while the robot walks
+};
+
+}  // namespace aims

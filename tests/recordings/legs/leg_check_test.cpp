@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/legs/leg_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace aims {
+namespace {
+
+constexpr LegGeometry kLegs = {0.188, 0.047, 0.08, 0.213, 0.213, 0.022};
+
+/// What a robot of which something is wrong records.
+struct Fault {
+  std::function<void(StandingFoot&)> of_foot = [](StandingFoot&) {};
+  std::function<void(ImuSample&)> of_imu = [](ImuSample&) {};
+};
+
+/// Warnings of a robot that walks to and fro and turns, 30 s at 100 Hz, on two feet at a time, with
+/// noise of 0.2 m/s on their velocities.
+std::vector<ReadingWarning> warnings_of(const Fault& fault) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0.0, 0.2);
+  LegCheck check(kLegs);
+  for (int i = 0; i < 3000; ++i) {
+    const double time = 0.01 * i;
+    const Eigen::Vector3d velocity(0.5 * std::sin(time), 0.3 * std::sin(1.3 * time), 0.0);
+    const Eigen::Vector3d turning(0.0, 0.0, 0.6 * std::sin(0.7 * time));
+    ImuSample imu;
+    imu.stamp = i * 10 * kMillisecond;
+    imu.angular_velocity = turning;
+    imu.specific_force = Eigen::Vector3d(0.5 * std::cos(time), 0.39 * std::cos(1.3 * time), 9.81) +
+                         turning.cross(velocity);
+    fault.of_imu(imu);
+    check.add_imu(imu, Eigen::Vector3d::Zero());
+    std::vector<StandingFoot> feet;
+    Eigen::Vector3d stated = Eigen::Vector3d::Zero();
+    const bool first = std::fmod(time, 0.5) < 0.25;
+    for (const int leg : first ? std::array{0, 3} : std::array{1, 2}) {
+      const Eigen::Vector3d place = foot_in_base(leg, {0.0, 0.8, -1.6}, kLegs);
+      const Eigen::Vector3d slip(noise(random), noise(random), noise(random));
+      StandingFoot foot = {leg, place, slip - velocity - turning.cross(place)};
+      fault.of_foot(foot);
+      feet.push_back(foot);
+      stated -= 0.5 * (foot.velocity + imu.angular_velocity.cross(foot.position));
+    }
+    check.add_feet(feet, stated);
+  }
+  return check.warnings();
+}
+
+std::string text_of(const std::vector<ReadingWarning>& warnings) {
+  std::string text;
+  for (const ReadingWarning& each : warnings) text += each.text + "\n";
+  return text;
+}
+
+void expect_named(const Fault& fault, const std::string& cause) {
+  const std::string text = text_of(warnings_of(fault));
+  EXPECT_NE(text.find(cause), std::string::npos) << cause << "\n" << text;
+}
+
+TEST(LegCheck, AWalkingRobotIsNotWarnedOf) {
+  EXPECT_EQ(text_of(warnings_of({})), "");
+  const auto late_load = [](StandingFoot& foot) { foot.velocity *= 0.75; };
+  EXPECT_EQ(text_of(warnings_of({.of_foot = late_load})), "") << "as of a real robot";
+}
+
+TEST(LegCheck, ExchangedLegsAreNamed) {
+  const auto left_right = [](StandingFoot& foot) { foot.position.y() *= -1.0; };
+  const auto front_rear = [](StandingFoot& foot) { foot.position.x() *= -1.0; };
+  expect_named({.of_foot = left_right}, "left and the right are exchanged");
+  expect_named({.of_foot = front_rear}, "front and rear legs are exchanged");
+}
+
+TEST(LegCheck, AGyroThatTheFeetContradictIsNamedWithItsCause) {
+  const auto scaled = [](double by) {
+    return Fault{.of_imu = [by](ImuSample& imu) { imu.angular_velocity *= by; }};
+  };
+  expect_named(scaled(57.3), "recording.gyro_unit=deg/s");
+  expect_named(scaled(-1.0), "z of the gyro or all joints have the wrong sign");
+  expect_named(scaled(0.4), "the scale of the gyro");
+}
+
+TEST(LegCheck, AnAccelerometerThatTheLegsContradictIsNamed) {
+  const auto mirrored = [](StandingFoot& foot) { foot.velocity.x() *= -1.0; };
+  expect_named({.of_foot = mirrored}, "x of the accelerometer, or the joints");
+  const auto small = [](StandingFoot& foot) { foot.velocity *= 0.4; };
+  expect_named({.of_foot = small}, "the lengths (leg_geometry), the zero or the unit");
+}
+
+TEST(LegCheck, FeetOnWhichNoRobotWalksAreNamed) {
+  for (const Eigen::Vector3d& q :
+       {Eigen::Vector3d(0.0, 0.0, 0.0), Eigen::Vector3d(0.0, 0.8, 1.6)}) {
+    const auto other_zero = [&q](StandingFoot& foot) {
+      foot.position = foot_in_base(foot.leg, q, kLegs);
+    };
+    const auto found = warnings_of({.of_foot = other_zero});
+    ASSERT_FALSE(found.empty()) << q.transpose();
+    EXPECT_NE(found[0].text.find("the zero, a sign or the unit"), std::string::npos);
+    EXPECT_EQ(found[0].sensor, WarnedSensor::kLegs);
+  }
+}
+
+TEST(LegCheck, FeetWithoutLengthsOfLegsAreNotJudgedByTheirPlace) {
+  LegCheck check((LegGeometry()));
+  for (int i = 0; i < 1000; ++i) {
+    ImuSample imu;
+    imu.stamp = i * 10 * kMillisecond;
+    imu.specific_force.z() = 9.81;
+    check.add_imu(imu, Eigen::Vector3d::Zero());
+    check.add_feet({{0, {1.0, 0.0, 2.0}, {-0.5, 0.0, 0.0}}}, {0.5, 0.0, 0.0});
+  }
+  EXPECT_TRUE(check.warnings().empty());
+}
+
+}  // namespace
+}  // namespace aims
