@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "estimator/aims/leg_free_prediction.hpp"
+#include "estimator/degeneracy/degeneracy.hpp"
 #include "estimator/filter/pose_information.hpp"
 #include "estimator/lidar/drift_search.hpp"
 
@@ -90,12 +91,11 @@ Eigen::Matrix3d across_the_way(const NominalState& state) {
 LidarUpdate::LidarUpdate(const EskfConfig& config, std::unique_ptr<const ScanRule> rule)
     : rule_(std::move(rule)),
       max_iterations_(config.lidar.max_iterations),
-      degeneracy_(config.degeneracy),
       cross_validation_(config.cross_validation),
       measures_legs_(measures_legs(config)),
       map_covariance_enabled_(config.map_covariance.enabled),
       matcher_(config.lidar.correlated_points, config.robust_kernel),
-      severity_(config.degeneracy.alpha) {
+      weights_(config.degeneracy) {
   cross_validation_.enabled = cross_validation_.enabled && config.lidar.enabled;
 }
 
@@ -228,23 +228,7 @@ void LidarUpdate::assess(const Belief& predicted, const NominalState& trial_stat
   diagnostics.C_IL_full = consistency_full(y, predicted.covariance);
   diagnostics.innovation_rotation = segment(y, ErrorState::kRotation);
   diagnostics.innovation_position = segment(y, ErrorState::kPosition);
-  if (degeneracy_.enabled) assess_degeneracy(statistics.variance, diagnostics);
-}
-
-void LidarUpdate::assess_degeneracy(double residual_variance, ScanDiagnostics& diagnostics) {
-  const double prior_sigma = diagnostics.residual_sigma_prior;
-  diagnostics.O_lidar = effective_observability(residual_variance, degeneracy_.sigma_0);
-  diagnostics.O_lidar_prior =
-      effective_observability(prior_sigma * prior_sigma, degeneracy_.sigma_0);
-  const double O_lidar =
-      degeneracy_.prior_residuals ? diagnostics.O_lidar_prior : diagnostics.O_lidar;
-  const bool imu_alone =
-      degeneracy_.prediction == ConsistencyPrediction::kImu && std::isfinite(diagnostics.C_IL_imu);
-  diagnostics.C_IL = imu_alone ? diagnostics.C_IL_imu : diagnostics.C_IL_imu_legs;
-  diagnostics.D = degeneracy_severity(O_lidar, diagnostics.C_IL, degeneracy_);  // eq. (7)
-  severity_.update(diagnostics.D);                                              // eq. (12)
-  gamma_lidar_ = lidar_reliability(severity_.value(), degeneracy_);
-  gamma_leg_ = leg_reliability(severity_.value(), degeneracy_);
+  weights_.assess(statistics.variance, diagnostics);
 }
 
 /// C_IL of the prediction by the IMU alone. The LiDAR-updated state of eq. (5) is what the scan
@@ -293,7 +277,7 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
         diagnostics);
     if (leg_free != nullptr) diagnostics.C_IL_imu = leg_free_consistency(*leg_free, at);
     assess(predicted, at, diagnostics);
-    const Linearization weighed = fused(part_, gamma_lidar_, at);
+    const Linearization weighed = fused(part_, weights_.gamma_lidar(), at);
     belief = fused_with(predicted, at, weighed);
     diagnostics.verdict = verdict_;
     matcher_.learn_noise();
@@ -301,9 +285,7 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
       update_map_covariance(map, belief.state, predicted, belief);
     }
   }
-  if (degeneracy_.enabled) diagnostics.D_smoothed = severity_.value();
-  diagnostics.gamma_lidar = gamma_lidar_;
-  diagnostics.gamma_leg = gamma_leg_;
+  weights_.record(diagnostics);
   return belief;
 }
 
@@ -316,7 +298,7 @@ Belief LidarUpdate::update_with_real_part(const Belief& predicted, const VoxelMa
   at.delay = matched_at_.delay;
   const Eigen::Vector3d apart = predicted.state.position - predicted_.position;
   at.position = matched_at_.position + apart - scan_mask(predicted.state).translation * apart;
-  const Linearization real = fused(ScanPart::kReal, gamma_lidar_, at);
+  const Linearization real = fused(ScanPart::kReal, weights_.gamma_lidar(), at);
   const Belief belief = fuse(predicted, at, real.measurement, real.mask);
   update_map_covariance(map, matched_at_, predicted, belief);
   return belief;

@@ -6,11 +6,11 @@
 #include <optional>
 #include <span>
 
+#include "estimator/aims/adaptive_weights.hpp"
 #include "estimator/aims/config.hpp"
 #include "estimator/aims/scan_diagnostics.hpp"
 #include "estimator/constrained/scan_rule.hpp"
 #include "estimator/degeneracy/cross_validation.hpp"
-#include "estimator/degeneracy/degeneracy.hpp"
 #include "estimator/filter/kalman_update.hpp"
 #include "estimator/lidar/scan_matcher.hpp"
 #include "estimator/lidar/voxel_map.hpp"
@@ -54,7 +54,7 @@ class LidarUpdate {
   void hold_legs(bool held) { holds_legs_ = held; }
 
   /// gamma_leg after the last scan, eq. (10); 1 before the first.
-  double gamma_leg() const { return gamma_leg_; }
+  double gamma_leg() const { return weights_.gamma_leg(); }
 
   /// Whether leg scale and bias are consider states: along a direction that scans do not constrain
   /// only the legs measure the velocity, so their errors are unobservable.
@@ -90,7 +90,6 @@ class LidarUpdate {
                        const VoxelMap& map, ScanDiagnostics& diagnostics);
   void assess(const Belief& predicted, const NominalState& trial_state,
               ScanDiagnostics& diagnostics);
-  void assess_degeneracy(double residual_variance, ScanDiagnostics& diagnostics);
   double leg_free_consistency(const Belief& leg_free, const NominalState& linearization) const;
   void update_map_covariance(const VoxelMap& map, const NominalState& matching,
                              const Belief& predicted, const Belief& updated);
@@ -104,16 +103,13 @@ class LidarUpdate {
   MatchInformation scan_;                 ///< the present scan at the last linearization
   NominalState predicted_;                ///< for it, by the belief of update()
   NominalState matched_at_;               ///< where its matches were linearized last
-  DegeneracyConfig degeneracy_;
   CrossValidationConfig cross_validation_;
   bool holds_legs_ = false;
   bool measures_legs_;  ///< the real part holds nothing along the way
   CrossValidatedInformation fraction_;
   bool map_covariance_enabled_;
   ScanMatcher matcher_;
-  SeverityFilter severity_;
-  double gamma_lidar_ = 1.0;
-  double gamma_leg_ = 1.0;
+  AdaptiveWeights weights_;
   Eigen::Matrix3d map_covariance_ = Eigen::Matrix3d::Zero();
 };
 

@@ -12,11 +12,10 @@
 #include "recordings/legs/leg_stream.hpp"
 #include "recordings/source/recording_file.hpp"
 #include "recordings/stream/decided_start.hpp"
-#include "recordings/stream/missing_messages.hpp"
 #include "recordings/stream/record_clock.hpp"
 #include "recordings/stream/recording_plan.hpp"
 #include "recordings/stream/repeated_samples.hpp"
-#include "recordings/stream/stamp_leaps.hpp"
+#include "recordings/stream/stream_warnings.hpp"
 #include "recordings/topics/recording_channels.hpp"
 #include "recordings/topics/topic_choice.hpp"
 
@@ -32,9 +31,6 @@ constexpr Duration kMaxLate = 5 * kSecond;
 /// Of a stamp 0 from the time at which its message was recorded, by the clock of the sensor.
 constexpr Duration kMaxUnset = kSecond;
 constexpr std::size_t kMaxHeldBytes = std::size_t{256} << 20;
-/// Fractions of messages whose loss spoils no estimate; drivers of legs often lose some.
-constexpr double kFewMissing = 0.02, kFewLegsMissing = 0.1;
-constexpr int kFewGaps = 5;  ///< that are pauses of a sensor
 
 /// The first role that the messages of a channel serve.
 std::optional<std::size_t> first_role(const Channel& channel) {
@@ -90,7 +86,7 @@ struct RecordingReader::Impl {
   void malformed(Role role) { ++counts[std::string(name_of(role)) + "_malformed"]; }
   Time stamp_of(Role role, Time stamp, double delay) const;
   Duration period_of(Role role) const;
-  void warn_of_missing(Role role, WarnedSensor sensor);
+  void warn_of_missing(Role role);
   void find_leap(const BagMessage& message, const Channel& channel, const MessageView& view);
   void warn_of_leaps();
   void finish(std::vector<Delivery>& out);
@@ -353,8 +349,9 @@ bool RecordingReader::Impl::hold(const BagMessage& message, const Channel& chann
   return true;
 }
 
-/// Takes the messages that are due.
+/// Takes the messages that are due, whose stamps are right.
 void RecordingReader::Impl::release(Time due, std::vector<Delivery>& out) {
+  const auto of_current = std::exchange(leapt, std::nullopt);
   while (!held.empty() && held.begin()->first <= due) {
     const auto first = held.extract(held.begin());
     record_time = first.key();
@@ -364,6 +361,7 @@ void RecordingReader::Impl::release(Time due, std::vector<Delivery>& out) {
     const auto view = channel->decoder.decode(message.data);
     if (view) take(*channel, *view, out);
   }
+  leapt = of_current;
 }
 
 void RecordingReader::Impl::receive(const BagMessage& given, std::vector<Delivery>& out) {
@@ -382,9 +380,7 @@ void RecordingReader::Impl::receive(const BagMessage& given, std::vector<Deliver
   }
   if (view && !unset) find_leap(message, *channel, *view);
   if (view && !unset) message.record_time = arrival(message, *channel, *view);
-  const auto wrong = std::exchange(leapt, std::nullopt);
-  release(message.record_time, out);  // others, whose stamps are right
-  leapt = wrong;
+  release(message.record_time, out);
   record_time = message.record_time;
   position = std::max(position, record_time - plan.start);
   if (!view) {
@@ -408,53 +404,38 @@ Duration RecordingReader::Impl::period_of(Role role) const {
 }
 
 /// Warns of many messages that were not recorded.
-void RecordingReader::Impl::warn_of_missing(Role role, WarnedSensor sensor) {
+void RecordingReader::Impl::warn_of_missing(Role role) {
   const MissingMessages& each = missing[static_cast<std::size_t>(role)];
   const auto unset = counts.find("stamp_not_set");
-  const auto left_out = unset == counts.end() ? 0 : unset->second;
-  const auto lost = static_cast<double>(each.count() - left_out);
-  const double all = lost + static_cast<double>(each.received());
-  if (lost <= (role == Role::kLegs ? kFewLegsMissing : kFewMissing) * all) return;
-  if (each.gaps() < kFewGaps) return;
-  const std::string name(name_of(role));
-  counts[name + "_messages_missing"] = static_cast<int>(lost);
+  const auto lost = many_missing(role, each, unset == counts.end() ? 0 : unset->second);
+  if (!lost) return;
+  counts[fmt::format("{}_messages_missing", name_of(role))] = static_cast<int>(*lost);
   plan.setup.warnings.push_back(
-      {fmt::format("messages of the {} are missing", name),
-       fmt::format("{}: {:.0f} of {:.0f} messages are missing, by the gaps in their stamps "
-                   "({:.1f} %): the network, the recorder or the driver lost them",
-                   topic_of(plan.setup.topics, role), lost, all, 1e2 * lost / all),
-       sensor});
+      warning_of_missing(role, topic_of(plan.setup.topics, role), *lost, each));
 }
 
 /// Warns of stamps of one topic that leapt.
 void RecordingReader::Impl::warn_of_leaps() {
   for (std::size_t i = 0; i < kRoleCount; ++i) {
-    const StampLeaps& each = leaps[i];
     const Role role = static_cast<Role>(i);
-    if (each.count() == 0) continue;
-    counts[fmt::format("{}_stamps_leap", name_of(role))] = each.count();
+    if (leaps[i].count() == 0) continue;
+    counts[fmt::format("{}_stamps_leap", name_of(role))] = leaps[i].count();
     if (steady_imu.was_always_steady()) {  // the first one that leapt was no matter of the recorder
       counts.erase("recorded_before_their_stamp");
       counts.erase("recorded_long_after_their_stamp");
     }
     plan.setup.warnings.push_back(
-        {fmt::format("stamps of the {} leap", name_of(role)),
-         fmt::format(
-             "{}: stamps leap by {:.3f} s after {:.1f} s, while those of the IMU do not: in "
-             "place of {} of them, record times and the usual delay serve",
-             topic_of(plan.setup.topics, role), to_seconds(each.leap()),
-             to_seconds(each.first() - plan.start), each.count())});
+        warning_of_leaps(role, topic_of(plan.setup.topics, role), leaps[i], plan.start));
   }
 }
 
 /// What the whole recording tells.
 void RecordingReader::Impl::finish(std::vector<Delivery>& out) {
-  leapt.reset();
   release(std::numeric_limits<Time>::max(), out);
   warn_of_leaps();
-  warn_of_missing(Role::kImu, WarnedSensor::kAny);
-  warn_of_missing(Role::kLidar, WarnedSensor::kLidar);
-  warn_of_missing(Role::kLegs, WarnedSensor::kLegs);
+  warn_of_missing(Role::kImu);
+  warn_of_missing(Role::kLidar);
+  warn_of_missing(Role::kLegs);
   std::ranges::move(legs.warnings(), std::back_inserter(plan.setup.warnings));
   const auto repeated = static_cast<int>(bag->summary().repeated_messages);
   if (repeated > 0) counts["recorded_in_two_files"] = repeated;

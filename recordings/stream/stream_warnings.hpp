@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/time.hpp"
+#include "recordings/reading_notes.hpp"
+#include "recordings/stream/missing_messages.hpp"
+#include "recordings/stream/stamp_leaps.hpp"
+#include "recordings/topics/recording_channels.hpp"
+
+namespace aims {
+
+/// The messages of a sensor that are missing, where they are so many that an estimate suffers;
+/// `left_out` of them came, without a stamp.
+std::optional<double> many_missing(Role role, const MissingMessages& messages, int left_out);
+
+ReadingWarning warning_of_missing(Role role, const std::string& topic, double missing,
+                                  const MissingMessages& messages);
+
+/// `start`: record time of the first message.
+ReadingWarning warning_of_leaps(Role role, const std::string& topic, const StampLeaps& leaps,
+                                Time start);
+
+}  // namespace aims
