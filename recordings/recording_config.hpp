@@ -98,8 +98,9 @@ struct RecordingConfig {
   std::vector<std::string> foot_names;   ///< of the array's entries, e.g. [FR, FL, RR, RL]
   std::vector<std::string> joint_names;  ///< of the 12 joints, leg by leg; empty: detected
   JointUnit joint_unit = JointUnit::kRadians;
-  /// Of the robot; by default what a simulated recording states, else that of the default robot.
-  LegGeometry leg_geometry{0.188, 0.047, 0.08, 0.213, 0.213, 0.022};
+  /// Of the robot. Lengths of 0 are those that a simulated recording states, else those of the robot
+  /// of the message type, else of a Go1.
+  LegGeometry leg_geometry;
   FootModel foot_model = FootModel::kPoint;  ///< for legs without odometry
   /// A record of a live estimate is read as that one read it.
   bool as_live = true;

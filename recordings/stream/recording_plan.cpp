@@ -118,46 +118,60 @@ const StateLayout* state_of_joints(const RecordingChannels& channels, const Topi
              : nullptr;
 }
 
-/// The configuration with the legs that a simulated recording states, or those of the robot of the
-/// message type, unless it names its own.
-RecordingConfig with_recorded_legs(const RecordingConfig& given, MessageSource& bag,
-                                   const StateLayout* state, std::vector<std::string>& notes) {
-  RecordingConfig config = given;
-  if (given.leg_geometry != RecordingConfig().leg_geometry) return config;
-  const auto legs = recorded_legs(bag);
-  if (legs && *legs != given.leg_geometry) {
-    config.leg_geometry = *legs;
-    notes.push_back("leg geometry: as the recording's scenario states it (robot.legs)");
-  } else if (!legs && state != nullptr) {
-    config.leg_geometry = *state->geometry;
-    notes.push_back(
-        fmt::format("leg geometry: that of {}, as the message type {} suggests "
-                    "(leg_geometry)",
-                    state->robot, state->type));
+/// Lengths where nothing states any: of a Unitree Go1, whose size the simulated robot has.
+constexpr LegGeometry kAssumedLegs = {0.188, 0.047, 0.08, 0.213, 0.213, 0.022};
+
+/// `given` with its zeros from `others`.
+LegGeometry completed(LegGeometry given, const LegGeometry& others) {
+  for (double LegGeometry::*length :
+       {&LegGeometry::hip_x, &LegGeometry::hip_y, &LegGeometry::abduction, &LegGeometry::thigh,
+        &LegGeometry::calf, &LegGeometry::foot_radius}) {
+    if (given.*length == 0.0) given.*length = others.*length;
   }
-  return config;
+  return given;
 }
 
-/// Whether the configuration, the recording's scenario or the type of its messages states the
-/// lengths of the legs.
-bool knows_legs(const RecordingConfig& given, MessageSource& bag, const StateLayout* state) {
-  return state != nullptr || given.leg_geometry != RecordingConfig().leg_geometry ||
-         recorded_legs(bag).has_value();
+/// The configuration with all lengths of the legs; `known`: something states some.
+struct WithLegs {
+  RecordingConfig config;
+  bool known = true;
+};
+
+WithLegs with_legs(const RecordingConfig& given, MessageSource& bag, const StateLayout* state,
+                   std::vector<std::string>& notes) {
+  const bool states_some = given.leg_geometry != LegGeometry();
+  WithLegs with{given};
+  LegGeometry& legs = with.config.leg_geometry;
+  if (const auto recorded = recorded_legs(bag)) {
+    legs = completed(given.leg_geometry, *recorded);
+    if (!states_some && legs != kAssumedLegs) {
+      notes.push_back("leg geometry: as the recording's scenario states it (robot.legs)");
+    }
+  } else if (state != nullptr) {
+    legs = completed(given.leg_geometry, *state->geometry);
+    if (states_some) return with;
+    notes.push_back(fmt::format(
+        "leg geometry: that of {}, as the message type {} suggests (leg_geometry)", state->robot,
+        state->type));
+  } else {
+    legs = completed(given.leg_geometry, kAssumedLegs);
+    with.known = states_some;
+  }
+  return with;
 }
 
 /// Of legs whose lengths nothing states. Who maps the columns of a table knows the robot: a note.
 void warn_of_legs(MessageSource& bag, RecordingSetup& setup) {
-  const double thigh = RecordingConfig().leg_geometry.thigh;
   if (type_of(bag.connections(), setup.topics.contacts) == kFootForces) {
-    return setup.notes.push_back(
-        fmt::format("leg geometry: that of a Unitree Go1, thigh {} m (leg_geometry)", thigh));
+    return setup.notes.push_back(fmt::format(
+        "leg geometry: that of a Unitree Go1, thigh {} m (leg_geometry)", kAssumedLegs.thigh));
   }
   setup.warnings.push_back(
       {"lengths of the legs assumed",
        fmt::format("nothing states the lengths of the legs: those of a Unitree Go1 are assumed "
-                   "(thigh {} m), and distances by the legs are wrong by as much as they are. Set "
-                   "recording.leg_geometry (of a Go1: {{hip_x: 0.1881, hip_y: 0.04675}})",
-                   thigh),
+                   "(thigh {0} m); distances by the legs are wrong in proportion to their error. "
+                   "Set recording.leg_geometry (of a Go1: {{thigh: {0}}})",
+                   kAssumedLegs.thigh),
        WarnedSensor::kLegs});
 }
 
@@ -189,8 +203,8 @@ Result<RecordingPlan> plan_recording(MessageSource& bag, const RecordingConfig& 
                                      std::vector<std::string> notes) {
   const auto plain = with_plain_extrinsics(given);
   if (!plain) return tl::unexpected(plain.error());
-  const RecordingConfig config =
-      with_recorded_legs(*plain, bag, state_of_joints(channels, topics), notes);
+  const auto [config, legs_are_known] =
+      with_legs(*plain, bag, state_of_joints(channels, topics), notes);
   if (bag.summary().recorded_at_stamps) {
     notes.push_back("record times are all the same: messages arrive in the order of the file");
   }
@@ -212,9 +226,7 @@ Result<RecordingPlan> plan_recording(MessageSource& bag, const RecordingConfig& 
   plan->start = survey.start(bag.summary());
   warn_of_recorders(bag.summary(), plan->setup.warnings);
   warn_of_packets(bag.summary(), plan->setup.warnings);
-  if (plan->setup.has_joints && !knows_legs(given, bag, state_of_joints(channels, topics))) {
-    warn_of_legs(bag, plan->setup);
-  }
+  if (plan->setup.has_joints && !legs_are_known) warn_of_legs(bag, plan->setup);
   return plan;
 }
 

@@ -49,7 +49,7 @@ class Table(Walk):
     def test_a_table_carries_the_robot_as_its_joints_do(self):
         joints, _ = self.poses(self.path("walk.mcap"), "recording.topics.leg_odometry=none")
         low, _ = self.poses(self.write("low.db3", "LowState", self.low_states()),
-                            unitree_test.OWN_LEGS)
+                            *unitree_test.OWN_LEGS)
         found, said = self.poses(self.table("run"))
         self.assertIn("learned from", said)
         self.differ_by(found, joints, 0.03)

@@ -36,8 +36,10 @@ def foot_speed(leg, angles, rates):
     return [(a - b) / (2 * step) for a, b in zip(*ends)]
 
 
-# Lengths of the robot that walked, said to be given: where none are, those of a Go2 serve.
-OWN_LEGS = "recording.leg_geometry.hip_x=0.1880001"
+# Lengths of the robot that walked; where none are given, those of a Go2 serve.
+OWN_LEGS = [f"recording.leg_geometry.{name}={length}" for name, length in (
+    ("hip_x", 0.188), ("hip_y", 0.047), ("abduction", 0.08), ("thigh", 0.213), ("calf", 0.213),
+    ("foot_radius", 0.022))]
 
 
 class Walk(ProgramTest):
@@ -128,7 +130,8 @@ class Walk(ProgramTest):
 
     def test_states_carry_the_robot_as_its_joints_do(self):
         joints, _ = self.poses(self.path("walk.mcap"), "recording.topics.leg_odometry=none")
-        low, said = self.poses(self.write("low.db3", "LowState", self.low_states()), OWN_LEGS)
+        low, said = self.poses(self.write("low.db3", "LowState", self.low_states()),
+                               *OWN_LEGS)
         self.assertIn("learned from", said)
         sport, said = self.poses(self.write("sport.db3", "SportModeState", self.sport_states()))
         self.assertIn("learned from", said)
