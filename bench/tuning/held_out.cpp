@@ -83,8 +83,9 @@ void measure(const ResponseTable& table, std::size_t point, std::span<const std:
 std::string measured_text(const PairedGain& gain) {
   std::string text;
   if (gain.median_before && gain.median_after) {
-    text = fmt::format("median {} {:.3g} -> {:.3g} {}, ", gain.score, *gain.median_before,
-                       *gain.median_after, gain.unit);
+    const std::string unit = gain.unit.empty() ? "" : " " + gain.unit;
+    text = fmt::format("median {} {:.3g} -> {:.3g}{}, ", gain.score, *gain.median_before,
+                       *gain.median_after, unit);
   }
   return text + fmt::format("diverged runs {} -> {} of {}", gain.diverged_before, gain.diverged,
                             gain.sequences);

@@ -9,6 +9,7 @@
 
 #include "bench/scenario/score_keys.hpp"
 #include "bench/scenario/seeds.hpp"
+#include "bench/scoring/score_list.hpp"
 #include "bench/tuning/plan_paths.hpp"
 #include "bench/tuning/range_key.hpp"
 #include "bench/tuning/sweep_plan.hpp"
@@ -65,11 +66,24 @@ Result<void> read_ranges(TuneTask& task, const Scenario& base) {
   return {};
 }
 
+/// Error for a score of which less is not better: objectives are minimized.
+Result<void> check_direction(const std::string& key, const std::string& score) {
+  const auto listed = std::ranges::find_if(score_list(), [&](const Score& each) {
+    return score == each.key || score.starts_with(std::string(each.key) + ".");
+  });
+  if (listed == score_list().end() || listed->better == Better::kSmaller) return {};
+  return failure(
+      fmt::format("{}: less of '{}' is not better, and objectives are minimized; expected a score "
+                  "of which less is better, e.g. ate_yaw_m",
+                  key, score));
+}
+
 Result<void> check_objectives(const TunePlan& plan, const Scenarios& scenarios) {
   for (std::size_t i = 0; i < plan.objectives.size(); ++i) {
     const std::string key = fmt::format("objectives.{}.score", i);
     const auto known = check_score(key, plan.objectives[i].score, *scenarios.front());
     if (!known) return known;
+    if (auto right = check_direction(key, plan.objectives[i].score); !right) return right;
   }
   return check_optimizer(plan.optimizer, plan.objectives.size());
 }

@@ -171,6 +171,24 @@ TEST(TunePlan, RefusalSaysWhatWasExpected) {
   EXPECT_TRUE(says(refusal([](TunePlan& p) { p.optimizer.population = 4; }), "population"));
 }
 
+TEST(TunePlan, RefusesScoresOfWhichLessIsNotBetter) {
+  for (const char* score : {"coverage", "success_1_percent"}) {
+    TunePlan plan = small_plan();
+    plan.objectives[0].score = score;
+    const std::string refusal = refusal_of(plan);
+    EXPECT_TRUE(says(refusal, "objectives.0.score: less of ")) << refusal;
+    EXPECT_TRUE(says(refusal, score)) << refusal;
+  }
+}
+
+TEST(PairedGain, NoUnitLeavesNoBlank) {
+  PairedGain gain;
+  gain.score = "success";
+  gain.median_before = 1.0;
+  gain.median_after = 1.0;
+  EXPECT_TRUE(says(measured_text(gain), "median success 1 -> 1, diverged"));
+}
+
 TEST(Tune, FindsWhatIsBetterAndThatItHolds) {
   const auto result = tuned(small_plan());
   ASSERT_TRUE(result) << result.error().message;
