@@ -68,7 +68,8 @@ void print_run(const Suite& suite, const fs::path& out, const SharedOptions& sha
   const SuiteCase& each = suite.cases.front();
   if (!each.runs.empty()) {
     print_out("{}, seed {}\n", each.scenario.name, seeds_text(each));
-    print_scores_table(score_table(each.runs), "scores.md");
+    const bool several_seeds = each.runs.front().seed != each.runs.back().seed;
+    print_scores_table(score_table(each.runs), several_seeds ? "summary.md" : "scores.json");
     print_out("{}\n", score_legend(each.runs, each.scenario.scoring));
     print_health(each);
   }

@@ -103,7 +103,8 @@ Result<Answer> finish(const TuneArguments& arguments, TuneResult& result) {
   if (!result.chosen.empty()) print_outcome(result);
   const auto left_out = left_out_lines(result);
   for (const std::string& line : left_out) print_out("INVALID RUNS: {}\n", line);
-  for (const std::string& line : failed_lines(result)) print_out("FAILED RUNS: {}\n", line);
+  const auto failed = failed_lines(result);
+  for (const std::string& line : failed) print_out("FAILED RUNS: {}\n", line);
   print_out("results: {}\n", (out / "tune.md").string());
   write_pages_of(out, arguments.shared.quiet);
   Json document = tune_json(result);
@@ -115,7 +116,8 @@ Result<Answer> finish(const TuneArguments& arguments, TuneResult& result) {
     }
     print_applied(result, arguments.apply);
   }
-  return Answer{left_out.empty() ? kOk : kInvalidRun, std::move(document)};
+  const int code = !failed.empty() ? kExpectationFailed : left_out.empty() ? kOk : kInvalidRun;
+  return Answer{code, std::move(document)};
 }
 
 Result<Answer> tune_command(const TuneArguments& arguments) {

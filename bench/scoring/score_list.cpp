@@ -151,6 +151,14 @@ constexpr std::array kScores = {
 };
 // clang-format on
 
+/// The entry of that key or of one above it; the end where there is none.
+const Score* listed(std::string_view key) {
+  return std::ranges::find_if(kScores, [&](const Score& each) {
+    const std::string_view above = each.key;
+    return key == above || (key.starts_with(above) && key[above.size()] == '.');
+  });
+}
+
 /// The entry for a number of that key.
 Score number(const char* key) {
   Score score = score_at(key);
@@ -162,11 +170,11 @@ Score number(const char* key) {
 
 std::span<const Score> score_list() { return kScores; }
 
-const Score& score_at(std::string_view key) {
-  return *std::ranges::find_if(kScores, [&](const Score& each) {
-    const std::string_view above = each.key;
-    return key == above || (key.starts_with(above) && key[above.size()] == '.');
-  });
+const Score& score_at(std::string_view key) { return *listed(key); }
+
+Better better_of(std::string_view key) {
+  const auto* const score = listed(key);
+  return score == kScores.end() ? Better::kSmaller : score->better;
 }
 
 std::string title_with_unit(const Score& score) {

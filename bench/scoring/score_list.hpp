@@ -37,6 +37,9 @@ std::span<const Score> score_list();
 /// The score of that key, or of the longest one above it; `key` is dotted and one of the list.
 const Score& score_at(std::string_view key);
 
+/// Which is better of the score of that key; of one that the list lacks, less.
+Better better_of(std::string_view key);
+
 /// "ATE yaw [m]".
 std::string title_with_unit(const Score& score);
 

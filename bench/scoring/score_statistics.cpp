@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "bench/metrics/statistics.hpp"
+#include "bench/scoring/score_list.hpp"
 #include "bench/scoring/validity.hpp"
 
 namespace aims {
@@ -31,12 +32,18 @@ std::optional<double> largest(const std::vector<double>& values) {
   return *std::max_element(values.begin(), values.end());
 }
 
+std::optional<double> smallest(const std::vector<double>& values) {
+  if (values.empty()) return std::nullopt;
+  return *std::min_element(values.begin(), values.end());
+}
+
 }  // namespace
 
 ScoreStatistics statistics_of(std::span<const RunRecord> runs, const std::string& estimator,
                               const std::string& key) {
   const std::vector<double> values = values_of(runs, estimator, key);
-  return {median(values), largest(values), values.size()};
+  const bool more_is_better = better_of(key) == Better::kLarger;
+  return {median(values), more_is_better ? smallest(values) : largest(values), values.size()};
 }
 
 Interval median_interval(std::span<const RunRecord> runs, const std::string& estimator,

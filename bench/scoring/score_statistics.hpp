@@ -17,7 +17,7 @@ namespace aims {
 /// (bench/scoring/validity.hpp) are left out.
 struct ScoreStatistics {
   std::optional<double> median;  ///< over the runs that have a value
-  std::optional<double> worst;   ///< largest
+  std::optional<double> worst;   ///< largest; smallest of a score of which more is better
   std::size_t count = 0;         ///< runs that have a value
 };
 

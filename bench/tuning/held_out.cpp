@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -31,7 +32,7 @@ bool may_be_better(const PairedGain& gain) {
 
 /// Of the runs that the point saves where every one with the defaults diverged.
 double p_of_saved(const PairedGain& gain) {
-  return mcnemar_test(0, gain.sequences - gain.diverged).p;
+  return mcnemar_test(0, gain.saved_seeds).p;
 }
 
 /// Of held-out sequences on which every run with the defaults diverged.
@@ -59,6 +60,17 @@ std::string title_of(const std::string& key) {
     if (each.key == key) return std::string(each.title);
   }
   return key;
+}
+
+/// The cases of each seed: a seed draws the same sensors in each scenario, so its sequences are no
+/// independent ones.
+std::vector<std::vector<std::size_t>> by_seed(const ResponseTable& table,
+                                              std::span<const std::size_t> cases) {
+  std::map<std::uint64_t, std::vector<std::size_t>> seeds;
+  for (const std::size_t i : cases) seeds[table.cases[i].seed].push_back(i);
+  std::vector<std::vector<std::size_t>> groups;
+  for (auto& [seed, group] : seeds) groups.push_back(std::move(group));
+  return groups;
 }
 
 /// The score as measured and the diverged runs on these cases.
@@ -101,7 +113,7 @@ FrontVerdict front_verdict_of(std::span<const PairedGain> gains) {
   bool better = false;
   bool worse = false;
   for (const PairedGain& each : gains) {
-    if (!each.gain || each.all_diverged || each.sequences < kFewestPairs)
+    if (!each.gain || each.all_diverged || each.seeds < kFewestPairs)
       return FrontVerdict::kTooFew;
     if (!is_significant(each)) continue;
     (*each.gain > 0.0 ? better : worse) = true;
@@ -124,41 +136,51 @@ const char* name_of(FrontVerdict verdict) {
     case FrontVerdict::kTooFew:
       break;
   }
-  return "too few sequences";
+  return "too few seeds";
 }
 
 PairedGain paired_gain(const ResponseTable& table, const Objective& objective, std::size_t point) {
   std::vector<std::size_t> cases;
-  std::vector<double> differences;  // of logarithms: less is better
   for (const std::size_t i : sorted_cases(table)) {
     const std::array one = {i};
-    const auto before = objective_at(table, objective, kDefaults, one);
-    const auto after = objective_at(table, objective, point, one);
-    if (!before || !after) continue;
-    cases.push_back(i);
-    const bool positive = *before > 0.0 && *after > 0.0;
-    differences.push_back(positive ? std::log(*after / *before) : *after - *before);
+    const bool both = objective_at(table, objective, kDefaults, one).has_value() &&
+                      objective_at(table, objective, point, one).has_value();
+    if (both) cases.push_back(i);
   }
-  const auto gain = [&](std::span<const std::size_t> some) {
-    return gain_over(objective_at(table, objective, kDefaults, some),
-                     objective_at(table, objective, point, some));
-  };
+  const auto seeds = by_seed(table, cases);
   PairedGain result;
   result.sequences = cases.size();
+  result.seeds = seeds.size();
+  result.saved_seeds = static_cast<std::size_t>(std::ranges::count_if(seeds, [&](const auto& of) {
+    return std::ranges::none_of(of, [&](std::size_t i) { return table.runs[point][i].diverged; });
+  }));
   result.all_diverged = all_diverged(table);
   result.defaults_diverged = defaults_all_diverged(table);
   result.score = title_of(objective.score);
   result.unit = unit_of_score(objective.score);
   measure(table, point, cases, result);
   if (result.defaults_diverged) return result;
+  const auto gain = [&](std::span<const std::size_t> some) {
+    return gain_over(objective_at(table, objective, kDefaults, some),
+                     objective_at(table, objective, point, some));
+  };
   result.gain = gain(cases);
-  if (cases.size() < kFewestPairs) return result;
+  if (seeds.size() < kFewestPairs) return result;
+  std::vector<double> differences;  // of logarithms, a seed each: less is better
+  for (const auto& of : seeds) {
+    const double before = objective_at(table, objective, kDefaults, of).value_or(0.0);
+    const double after = objective_at(table, objective, point, of).value_or(0.0);
+    const bool positive = before > 0.0 && after > 0.0;
+    differences.push_back(positive ? std::log(after / before) : after - before);
+  }
   result.p = paired_test(differences).p;
   result.interval = bootstrap_interval(
-      cases.size(),
+      seeds.size(),
       [&](std::span<const std::size_t> drawn) {
         std::vector<std::size_t> some;
-        for (const std::size_t i : drawn) some.push_back(cases[i]);
+        for (const std::size_t seed : drawn) {
+          some.insert(some.end(), seeds[seed].begin(), seeds[seed].end());
+        }
         return gain(some);
       },
       1);
@@ -169,10 +191,10 @@ Verdict verdict_of(const PairedGain& held_out) {
   if (held_out.defaults_diverged && !held_out.all_diverged) {
     return p_of_saved(held_out) <= kSignificant ? Verdict::kUseThem : Verdict::kUndecided;
   }
-  if (!held_out.gain || held_out.all_diverged || held_out.sequences < 2) {
+  if (!held_out.gain || held_out.all_diverged || held_out.seeds < 2) {
     return Verdict::kUndecided;
   }
-  if (held_out.sequences < kFewestPairs) {
+  if (held_out.seeds < kFewestPairs) {
     return *held_out.gain < 0.0 ? Verdict::kDoNotUse : Verdict::kUndecided;
   }
   if (is_significant(held_out)) {
@@ -193,15 +215,16 @@ std::string verdict_text(const PairedGain& held_out) {
   if (held_out.defaults_diverged) return saved_text(held_out);
   if (!held_out.gain) return "not validated: the objective has no gain on the held-out sequences";
   const std::string change = change_text(*held_out.gain);
-  if (held_out.sequences == 1) {
-    return fmt::format("nothing can be concluded from one held-out sequence ({}; objective {})",
+  if (held_out.seeds == 1) {
+    return fmt::format("nothing can be concluded from one held-out seed ({}; objective {})",
                        measured_text(held_out), change);
   }
-  const std::string on = fmt::format("{}; objective {} on {} held-out sequences",
-                                     measured_text(held_out), change, held_out.sequences);
-  if (held_out.sequences < kFewestPairs) {
+  const std::string on =
+      fmt::format("{}; objective {} on {} held-out sequences of {} seeds", measured_text(held_out),
+                  change, held_out.sequences, held_out.seeds);
+  if (held_out.seeds < kFewestPairs) {
     const char* what = verdict_of(held_out) == Verdict::kDoNotUse ? "do not use them" : "undecided";
-    return fmt::format("{}: {}, too few for an interval ({} are needed)", what, on, kFewestPairs);
+    return fmt::format("{}: {}, too few for an interval ({} seeds are needed)", what, on, kFewestPairs);
   }
   const std::string figures =
       fmt::format("95 % interval {}, p = {:.2g}", changes_text(held_out.interval), held_out.p);
@@ -210,7 +233,7 @@ std::string verdict_text(const PairedGain& held_out) {
     return fmt::format("{}: {} ({})", better ? "use them" : "do not use them", on, figures);
   }
   if (may_be_better(held_out)) {
-    return fmt::format("undecided: {} ({}); more held-out sequences are needed", on, figures);
+    return fmt::format("undecided: {} ({}); more held-out seeds are needed", on, figures);
   }
   return fmt::format("do not use them: no significant difference from the defaults: {} ({})", on,
                      figures);

@@ -15,8 +15,10 @@ namespace aims {
 struct PairedGain {
   std::size_t sequences = 0;   ///< on which both have an objective
   std::optional<double> gain;  ///< reduction of the objective, as a fraction of the defaults'
-  /// 95 %, of the gain: bootstrap over sequences, each with both its runs; empty below
-  /// `kFewestPairs` sequences.
+  std::size_t seeds = 0;       ///< of them
+  std::size_t saved_seeds = 0;  ///< seeds of which no run of the point diverged
+  /// 95 %, of the gain: bootstrap over seeds, each with all its sequences and both runs of each;
+  /// empty below `kFewestPairs` seeds.
   Interval interval;
   bool all_diverged = false;        ///< every run, of both
   bool defaults_diverged = false;   ///< every run with the defaults: there is no gain
@@ -26,7 +28,7 @@ struct PairedGain {
   std::string unit = {};
   std::optional<double> median_before;  ///< of the score as measured, with the defaults
   std::optional<double> median_after;   ///< with the values of the point
-  double p = 1.0;  ///< of the sign-flip test over sequences (bench/metrics/paired_test.hpp)
+  double p = 1.0;  ///< of the sign-flip test over seeds (bench/metrics/paired_test.hpp)
 };
 
 /// "median ATE yaw 0.384 -> 0.215 m, diverged runs 9 -> 6 of 10": the defaults before, the point

@@ -68,10 +68,7 @@ Result<void> read_ranges(TuneTask& task, const Scenario& base) {
 
 /// Error for a score of which less is not better: objectives are minimized.
 Result<void> check_direction(const std::string& key, const std::string& score) {
-  const auto listed = std::ranges::find_if(score_list(), [&](const Score& each) {
-    return score == each.key || score.starts_with(std::string(each.key) + ".");
-  });
-  if (listed == score_list().end() || listed->better == Better::kSmaller) return {};
+  if (better_of(score) == Better::kSmaller) return {};
   return failure(
       fmt::format("{}: less of '{}' is not better, and objectives are minimized; expected a score "
                   "of which less is better, e.g. ate_yaw_m",

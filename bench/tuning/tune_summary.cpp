@@ -254,7 +254,7 @@ std::string front_verdict(const TuneResult& result) {
   for (std::size_t k = 0; k < result.chosen.size(); ++k) {
     const auto verdict = front_verdict_of(front_gains(result, k));
     if (verdict == FrontVerdict::kTooFew) {
-      return fmt::format("undecided: too few held-out sequences for an interval ({} are needed)",
+      return fmt::format("undecided: too few held-out seeds for an interval ({} are needed)",
                          kFewestPairs);
     }
     if (verdict == FrontVerdict::kBetter) ++better;

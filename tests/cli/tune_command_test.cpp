@@ -58,7 +58,7 @@ TEST_F(Tunes, WriteValuesThatARunTakes) {
   EXPECT_TRUE(holds(tuned, "held out")) << tuned.output;
   EXPECT_TRUE(holds(tuned, "diverged runs ")) << "what a user understands leads" << tuned.output;
   EXPECT_TRUE(holds(tuned, "\nobjective: ")) << tuned.output;
-  EXPECT_TRUE(holds(tuned, "nothing can be concluded from one held-out sequence")) << tuned.output;
+  EXPECT_TRUE(holds(tuned, "nothing can be concluded from one held-out seed")) << tuned.output;
   EXPECT_FALSE(holds(tuned, "to use them: --set")) << tuned.output;
   EXPECT_TRUE(holds(tuned, "\nverdict: ")) << tuned.output;
   EXPECT_TRUE(holds(tuned, "search: ")) << tuned.output;

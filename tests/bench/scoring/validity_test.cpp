@@ -96,6 +96,14 @@ TEST(Validity, NoStatisticHoldsAnInvalidRun) {
             Json::parse(R"([{"seed": 2, "reason": "the robot fell at 1.2 s"}])"));
 }
 
+TEST(ScoreStatistics, TheWorstIsTheSmallestWhereMoreIsBetter) {
+  std::vector<RunRecord> runs = {record(1, 0.2, kFine), record(3, 0.4, kFine)};
+  runs[0].scores["estimators"]["aims"]["coverage"] = 0.98;
+  runs[1].scores["estimators"]["aims"]["coverage"] = 0.94;
+  EXPECT_EQ(statistics_of(runs, "aims", "coverage").worst, 0.94);
+  EXPECT_EQ(statistics_of(runs, "aims", "ate_m").worst, 0.4);
+}
+
 TEST(Validity, AMedianOverRunsWithoutSuccessIsMarked) {
   std::vector<RunRecord> runs = {record(1, 0.2, kFine), record(3, 0.4, kFine)};
   const auto cells_of = [](const TextTable& table, std::size_t row, const std::string& title) {

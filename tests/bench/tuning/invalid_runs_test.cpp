@@ -144,17 +144,39 @@ TEST(HeldOutVerdict, DoesNotDependOnTheOrderOfTheSequences) {
 
 TEST(HeldOutVerdict, IsUndecidedWhereTheTestCannotConfirmTheInterval) {
   PairedGain gain;
-  gain.sequences = 6;
+  gain.sequences = 12;
+  gain.seeds = 6;
   gain.gain = 0.48;
   gain.interval.low = 0.16;
   gain.interval.high = 0.81;
   gain.p = 0.25;
   EXPECT_EQ(verdict_of(gain), Verdict::kUndecided);
-  EXPECT_NE(verdict_text(gain).find("more held-out sequences are needed"), std::string::npos);
+  EXPECT_NE(verdict_text(gain).find("more held-out seeds are needed"), std::string::npos);
   gain.p = 0.03;
   EXPECT_EQ(verdict_of(gain), Verdict::kUseThem);
   gain.interval.low = -0.1;
   EXPECT_EQ(verdict_of(gain), Verdict::kDoNotUse);
+}
+
+// Two scenes that are nearly copies give each seed twice: that is no more evidence.
+TEST(HeldOutVerdict, CountsSeedsNotTheirScenes) {
+  ResponseTable table;
+  table.ranges = {{.key = "a", .low = 0.0, .high = 1.0}};
+  table.defaults = {0.5};
+  table.points = {{1.0}};
+  table.runs = {{}};
+  for (const char* scenario : {"corridor", "garage"}) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      table.cases.push_back({scenario, "", seed});
+      table.default_runs.push_back({0.2, false});
+      table.runs[0].push_back({0.18 - 0.001 * static_cast<double>(seed), false});
+    }
+  }
+  const PairedGain gain = paired_gain(table, Objective(), 0);
+  EXPECT_EQ(gain.sequences, 6U);
+  EXPECT_EQ(gain.seeds, 3U);
+  EXPECT_FALSE(gain.interval.low);
+  EXPECT_EQ(verdict_of(gain), Verdict::kUndecided);
 }
 
 }  // namespace

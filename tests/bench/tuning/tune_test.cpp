@@ -35,7 +35,7 @@ TunePlan small_plan() {
   plan.params = {"degeneracy.eta=0:6", "degeneracy.kappa=log(1,100)", "degeneracy.alpha=0:0.99"};
   plan.scenarios = {"corridor", "garage"};
   plan.seeds = "1-4";
-  plan.held_out.seeds = "11-14";
+  plan.held_out.seeds = "11-18";
   plan.optimizer.generations = 12;
   plan.optimizer.population = 10;
   return plan;
@@ -122,7 +122,7 @@ TEST(TunePlan, FindsWalksAndUntunedValues) {
   plan.held_out.scenarios = {"corridor_smooth"};
   const TuneTask task = task_of(plan);
   EXPECT_EQ(task.sequences.size(), 8U);
-  EXPECT_EQ(task.held_out.size(), 12U);
+  EXPECT_EQ(task.held_out.size(), 24U);
   const DegeneracyConfig config;
   EXPECT_EQ(task.defaults, (std::vector<double>{config.eta, config.kappa, config.alpha}));
 }
@@ -253,7 +253,8 @@ TEST(Tune, TwoObjectivesGiveAFront) {
 TEST(FrontVerdict, IsBetterOnlyIfNoObjectiveIsWorse) {
   const auto gain = [](double value, bool sure) {
     PairedGain of;
-    of.sequences = 8;
+    of.sequences = 16;
+    of.seeds = 8;
     of.gain = value;
     of.interval = sure ? Interval{value - 0.01, value + 0.01} : Interval{value - 1.0, value + 1.0};
     of.p = sure ? 0.01 : 0.5;
@@ -266,7 +267,7 @@ TEST(FrontVerdict, IsBetterOnlyIfNoObjectiveIsWorse) {
   EXPECT_EQ(front_verdict_of(Gains{gain(0.2, false), gain(0.1, false)}),
             FrontVerdict::kNoDifference);
   Gains few{gain(0.2, true), gain(0.1, true)};
-  few.back().sequences = 3;
+  few.back().seeds = 3;
   EXPECT_EQ(front_verdict_of(few), FrontVerdict::kTooFew);
 }
 
@@ -343,7 +344,7 @@ TEST(TuneReport, WithFewSequencesALossIsALossAndAGainIsUndecided) {
   const auto worse = tuned(plan, {.overfit = true});
   ASSERT_TRUE(worse);
   EXPECT_TRUE(says(held_out_verdict(*worse), "do not use them: ")) << held_out_verdict(*worse);
-  EXPECT_TRUE(says(held_out_verdict(*worse), "3 held-out sequences, too few for an interval"));
+  EXPECT_TRUE(says(held_out_verdict(*worse), "3 held-out sequences of 3 seeds, too few for an interval"));
   const auto better = tuned(plan);
   ASSERT_TRUE(better);
   EXPECT_TRUE(says(held_out_verdict(*better), "undecided: ")) << held_out_verdict(*better);
@@ -407,7 +408,7 @@ TEST(TuneReport, SaysWhetherTheGainHolds) {
   EXPECT_FALSE(says(holds, "`degeneracy.eta` does not matter")) << holds;
   const std::string overfit = report({.overfit = true});
   EXPECT_TRUE(says(overfit, "**verdict: do not use them: ")) << overfit;
-  EXPECT_TRUE(says(overfit, "worse on 8 held-out sequences (95 % interval")) << overfit;
+  EXPECT_TRUE(says(overfit, "worse on 16 held-out sequences of 8 seeds (95 % interval")) << overfit;
 }
 
 }  // namespace
