@@ -224,7 +224,8 @@ std::string verdict_text(const PairedGain& held_out) {
                   change, held_out.sequences, held_out.seeds);
   if (held_out.seeds < kFewestPairs) {
     const char* what = verdict_of(held_out) == Verdict::kDoNotUse ? "do not use them" : "undecided";
-    return fmt::format("{}: {}, too few for an interval ({} seeds are needed)", what, on, kFewestPairs);
+    return fmt::format("{}: {}, too few for an interval ({} seeds are needed)", what, on,
+                       kFewestPairs);
   }
   const std::string figures =
       fmt::format("95 % interval {}, p = {:.2g}", changes_text(held_out.interval), held_out.p);

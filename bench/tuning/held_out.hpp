@@ -13,10 +13,10 @@ namespace aims {
 
 /// By how much a point reduces the objective of the defaults on the sequences of a table.
 struct PairedGain {
-  std::size_t sequences = 0;   ///< on which both have an objective
+  std::size_t sequences = 0;    ///< on which both have an objective
+  std::size_t seeds = 0;        ///< of those sequences, which are independent from seed to seed
+  std::size_t saved_seeds = 0;  ///< of them, those of which no run of the point diverged
   std::optional<double> gain;  ///< reduction of the objective, as a fraction of the defaults'
-  std::size_t seeds = 0;       ///< of them
-  std::size_t saved_seeds = 0;  ///< seeds of which no run of the point diverged
   /// 95 %, of the gain: bootstrap over seeds, each with all its sequences and both runs of each;
   /// empty below `kFewestPairs` seeds.
   Interval interval;
@@ -56,8 +56,9 @@ enum class FrontVerdict { kBetter, kWorse, kMixed, kNoDifference, kTooFew };
 FrontVerdict front_verdict_of(std::span<const PairedGain> gains);
 const char* name_of(FrontVerdict verdict);
 
-/// The verdict with its figures, on one line: "do not use them: 8.7 % worse on 8 held-out sequences
-/// (95 % interval 3.1 to 14 % worse, p = 0.016)".
+/// The verdict with its figures, on one line: "do not use them: median ATE yaw 0.3 -> 0.33 m,
+/// diverged runs 0 -> 0 of 16; objective 8.7 % worse on 16 held-out sequences of 8 seeds (95 %
+/// interval 3.1 to 14 % worse, p = 0.016)".
 std::string verdict_text(const PairedGain& held_out);
 
 /// "8.7 % worse", "12 % better".
