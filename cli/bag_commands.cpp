@@ -123,7 +123,7 @@ std::shared_ptr<BagArguments> add_bag_options(Command& command) {
 void declare_info(Command command, const fs::path& /*scenarios*/) {
   auto arguments = add_bag_options(command);
   command.flag("--mount", arguments->mount,
-               "Compare the rotation of LiDAR odometry (A-LOAM, first 3 min) with\n"
+               "Compare the rotation of LiDAR odometry (first 3 min) with\n"
                "the gyro: an inverted or turned extrinsic, an IMU upside down, a\n"
                "mirrored axis, a clock that is off, a gyro in deg/s");
   command.footer("Example:\n  aims info robot.bag --mount");

@@ -67,7 +67,8 @@ std::string verdict_text(const MountCheck& check) {
 }
 
 std::string correction_text(const MountCheck& check, const Pose& T_imu_lidar) {
-  const Eigen::Quaterniond& q = check.R_imu_lidar;
+  Eigen::Quaterniond q = check.R_imu_lidar;
+  q.coeffs() = (q.coeffs().array().abs() < 1e-9).select(0.0, q.coeffs());
   const Eigen::Vector3d& t = T_imu_lidar.translation;
   return fmt::format(
       "--set recording.T_imu_lidar.quaternion_xyzw=[{:.6g},{:.6g},{:.6g},{:.6g}] "
@@ -96,7 +97,7 @@ Result<std::vector<std::string>> mount_report(const EstimateConfig& config,
   if (!reader) return tl::unexpected(reader.error());
   auto evidence = RotationEvidence::create(reader->setup(), WatchedScans::kAll);
   if (!evidence) {
-    return std::vector<std::string>{"mount of the LiDAR: not checked: needs an IMU and rings"};
+    return std::vector<std::string>{"mount of the LiDAR: not checked: needs an IMU and a LiDAR"};
   }
   std::vector<Delivery> batch;
   for (bool more = true; more && reader->position() < RotationEvidence::kLongest;) {

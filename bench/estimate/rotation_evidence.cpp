@@ -2,11 +2,9 @@
 #include "bench/estimate/rotation_evidence.hpp"
 
 #include <algorithm>
-#include <utility>
 #include <variant>
 
 #include "core/lie.hpp"
-#include "estimator/estimator_config.hpp"
 #include "recordings/median.hpp"
 
 namespace aims {
@@ -36,18 +34,16 @@ Eigen::Vector3d gyro_rotation(std::span<const ImuSample> samples, Time begin, Ti
   return sum.norm() > kFullTurns ? sum : so3_log(rotation.normalized());
 }
 
-/// Adds the rotations over intervals of `kInterval` between poses, whose stamps are `late`.
-void add_pairs(const Trajectory& poses, Duration late, std::span<const ImuSample> samples,
-               const Eigen::Quaterniond& R_body_lidar, std::vector<RotationPair>& pairs) {
+/// Adds the rotations over intervals of `kInterval` between poses.
+void add_pairs(const Trajectory& poses, std::span<const ImuSample> samples,
+               std::vector<RotationPair>& pairs) {
   std::size_t first = 0;
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const Duration step = poses[i].stamp - poses[first].stamp;
     if (step < kInterval) continue;
-    const Eigen::Quaterniond moved =
-        poses[first].pose.rotation.conjugate() * poses[i].pose.rotation;
     RotationPair pair;
-    pair.lidar = so3_log((R_body_lidar.conjugate() * moved * R_body_lidar).normalized());
-    pair.imu = gyro_rotation(samples, poses[first].stamp - late, poses[i].stamp - late);
+    pair.lidar = so3_log(poses[first].pose.rotation.conjugate() * poses[i].pose.rotation);
+    pair.imu = gyro_rotation(samples, poses[first].stamp, poses[i].stamp);
     const bool turns = std::max(pair.imu.norm(), pair.lidar.norm()) > kLeastRotation;
     if (step < 2 * kInterval && turns) pairs.push_back(pair);
     first = i;
@@ -55,12 +51,12 @@ void add_pairs(const Trajectory& poses, Duration late, std::span<const ImuSample
 }
 
 /// Adds the rates between poses, at the middle of their time.
-void add_rates(const Trajectory& poses, Duration late, std::vector<TurnRate>& rates) {
+void add_rates(const Trajectory& poses, std::vector<TurnRate>& rates) {
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const Duration step = poses[i].stamp - poses[i - 1].stamp;
     if (step <= 0 || step > kInterval) continue;
     const double angle = poses[i - 1].pose.rotation.angularDistance(poses[i].pose.rotation);
-    rates.push_back({poses[i - 1].stamp + step / 2 - late, angle / to_seconds(step)});
+    rates.push_back({poses[i - 1].stamp + step / 2, angle / to_seconds(step)});
   }
 }
 
@@ -70,7 +66,7 @@ std::optional<RotationEvidence> RotationEvidence::create(const RecordingSetup& s
                                                          WatchedScans watched) {
   const TopicsConfig& topics = setup.topics;
   const auto is_read = [](const std::string& topic) { return !topic.empty() && topic != "none"; };
-  if (!is_read(topics.lidar) || !is_read(topics.imu) || setup.rings.count == 0) return std::nullopt;
+  if (!is_read(topics.lidar) || !is_read(topics.imu)) return std::nullopt;
   return RotationEvidence(setup.rig, watched);
 }
 
@@ -96,17 +92,16 @@ bool RotationEvidence::is_wanted(const LidarScan& scan) {
 
 void RotationEvidence::close() {
   if (!odometry_) return;
-  odometry_->finish();
-  turns_.push_back(odometry_->result().trajectory);
+  turns_.insert(turns_.end(), odometry_->paths().begin(), odometry_->paths().end());
   odometry_.reset();
   kept_ = samples_.size();
 }
 
-void RotationEvidence::take(const Delivery& delivery, const LidarScan& scan) {
+void RotationEvidence::take(const LidarScan& scan) {
   if (!is_wanted(scan)) return close();
-  if (!odometry_) odometry_ = EstimatorConfigs().find("a_loam")->create(rig_);
+  if (!odometry_) odometry_.emplace();
   scan_times_.push_back(scan.end - scan.stamp);
-  odometry_->consume(delivery);
+  odometry_->add(scan);
 }
 
 void RotationEvidence::take(const ImuSample& sample) {
@@ -125,7 +120,7 @@ void RotationEvidence::take(const ImuSample& sample) {
 void RotationEvidence::consume(std::span<const Delivery> deliveries) {
   for (const Delivery& each : deliveries) {
     if (const auto* imu = std::get_if<ImuSample>(&each.measurement)) take(*imu);
-    if (const auto* scan = std::get_if<LidarScanPtr>(&each.measurement)) take(each, **scan);
+    if (const auto* scan = std::get_if<LidarScanPtr>(&each.measurement)) take(**scan);
   }
 }
 
@@ -134,7 +129,6 @@ void RotationEvidence::finish() {
   std::ranges::stable_sort(samples_, {}, &ImuSample::stamp);
 }
 
-/// A-LOAM takes scans as rigid: its poses are those of the middle of a scan, stamped at its end.
 Duration RotationEvidence::half_scan() const { return upper_median(scan_times_).value_or(0) / 2; }
 
 /// Samples with the mean rate over a scan around each, as scans see it: without vibration.
@@ -159,14 +153,14 @@ MountCheck RotationEvidence::mount() const {
   std::vector<RotationPair> pairs;
   const auto samples = seen_by_scans();
   for (const Trajectory& each : turns_) {
-    add_pairs(each, half_scan(), samples, rig_.T_body_lidar.rotation, pairs);
+    add_pairs(each, samples, pairs);
   }
   return check_mount(pairs, rig_.T_body_lidar.rotation, first_force_);
 }
 
 RateCheck RotationEvidence::rates() const {
   std::vector<TurnRate> lidar;
-  for (const Trajectory& each : turns_) add_rates(each, half_scan(), lidar);
+  for (const Trajectory& each : turns_) add_rates(each, lidar);
   std::vector<TurnRate> gyro;
   for (const ImuSample& each : seen_by_scans()) {
     gyro.push_back({each.stamp, each.angular_velocity.norm()});

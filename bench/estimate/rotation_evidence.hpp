@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "bench/estimate/lidar_odometry.hpp"
 #include "bench/estimate/rotation_check.hpp"
 #include "core/measurements.hpp"
-#include "estimator/estimator.hpp"
 #include "recordings/stream/recording_reader.hpp"
 
 namespace aims {
@@ -19,11 +18,11 @@ enum class WatchedScans {
   kTurns  ///< 20 s of those during which the gyro turns, of the whole recording
 };
 
-/// Collects what LiDAR odometry (A-LOAM, which uses no IMU) and the gyro of a recording say of the
-/// rotations of the body.
+/// Collects what LiDAR odometry without IMU and the gyro of a recording say of the rotations of the
+/// body.
 class RotationEvidence {
  public:
-  /// Nothing where the recording has no IMU, no LiDAR or no rings.
+  /// Nothing where the recording has no IMU or no LiDAR.
   static std::optional<RotationEvidence> create(const RecordingSetup& setup, WatchedScans watched);
 
   void consume(std::span<const Delivery> deliveries);
@@ -40,7 +39,7 @@ class RotationEvidence {
  private:
   RotationEvidence(const SensorRig& rig, WatchedScans watched) : rig_(rig), watched_(watched) {}
   void take(const ImuSample& sample);
-  void take(const Delivery& delivery, const LidarScan& scan);
+  void take(const LidarScan& scan);
   bool is_wanted(const LidarScan& scan);
   bool is_turning() const;
   void close();
@@ -49,7 +48,7 @@ class RotationEvidence {
 
   SensorRig rig_;
   WatchedScans watched_;
-  std::unique_ptr<Estimator> odometry_;                    ///< of the present turn
+  std::optional<LidarOdometry> odometry_;                  ///< of the present turn
   std::vector<Trajectory> turns_;                          ///< of the LiDAR odometry
   std::vector<ImuSample> samples_;                         ///< of turns, and the last ones
   std::size_t kept_ = 0;                                   ///< samples of turns

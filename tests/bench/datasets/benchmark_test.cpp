@@ -378,6 +378,22 @@ TEST_F(Benchmark, IilabsPutsPublishedScoresBeside) {
   EXPECT_NE(text.find("LIORF (published)"), std::string::npos) << text;
 }
 
+TEST_F(Benchmark, InfoFindsAWrongMountOfALidarWithoutRings) {
+  test::DataSet set{"/livox/lidar", "livox_frame", "/livox/imu", "livox_frame"};
+  set.custom_message = true;
+  sequence(set, "livox");
+  const auto right = aims("info --mount data/livox.bag");
+  EXPECT_NE(right.output.find("no contradiction between LiDAR odometry and gyro"),
+            std::string::npos)
+      << right.output;
+  const auto turned = aims(
+      "info --mount data/livox.bag --set "
+      "recording.T_imu_lidar.quaternion_xyzw=[0,0,0.7071,0.7071]");
+  EXPECT_NE(turned.output.find("MOUNT OF THE LIDAR: LiDAR odometry and gyro contradict it"),
+            std::string::npos)
+      << turned.output;
+}
+
 TEST_F(Benchmark, InfoFindsAWrongMountByTheRotationOfLidarOdometry) {
   const std::string bag = "'" + (walk_folder_->path() / "walk.bag").string() + "'";
   const auto right = aims("info --mount " + bag);
