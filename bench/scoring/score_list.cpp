@@ -130,7 +130,7 @@ constexpr std::array kScores = {
     Score{"ate_se3_m", "ATE SE(3)", "m", 3, kSmall, 0,
           [](const Scores& s) { return json_of(s.ate_se3_m); }},
     Score{"ate_se3_degenerate", "", "", 0, kOpen, 0,
-          [](const Scores& s) { return Json(s.se3_spread != PositionSpread::kFull); }},
+          [](const Scores& s) { return Json(s.ate_se3_m.has_value() && s.se3_spread != PositionSpread::kFull); }},
     Score{"ate_sim3_m", "ATE Sim(3)", "m", 3, kSmall, 0,
           [](const Scores& s) { return json_of(s.ate_sim3_m); }, has_sim3},
     Score{"sim3_scale", "", "-", 4, kOpen, 0,
