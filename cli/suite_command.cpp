@@ -125,8 +125,7 @@ void declare_suite(Command command, const fs::path& scenarios) {
       "  aims suite --tags severity --seeds 1-10 --out out/severity\n"
       "  aims suite corridor corridor_smooth --seeds 1-5 --estimators aims,lio\n"
       "  aims suite --tags stress --seeds 1-3 --set estimators.aims.degeneracy.eta=5 --out "
-      "out/eta5\n"
-      "Exit codes: as of aims; 2 also when a job failed.");
+      "out/eta5");
   command.action([arguments] {
     return answer("suite", arguments->json, [&] { return suite_command(*arguments); });
   });

@@ -77,11 +77,23 @@ void JobRunner::prune(std::set<std::string> kept) {
   pruned_.left = now.left;
 }
 
+namespace {
+
+Result<void> enter(const JobStore& store, const JobList& list) {
+  if (!list.plan.empty()) return store.enter(list.jobs, list.plan, list.force);
+  auto done = list.force ? Result<void>() : store.check_settings(list.settings);
+  if (done) done = store.enter(list.jobs, "", list.force);
+  return done ? store.keep_settings(list.settings) : done;
+}
+
+}  // namespace
+
 Result<JobRun> run_jobs(const JobList& list, JobOptions options, const JobObserver& observer) {
   const auto claim = claim_store(options.out, list.shard);
   if (!claim) return tl::unexpected(claim.error());
-  auto entered = JobStore(options.out).enter(list.jobs, list.plan, list.force);
-  if (!entered) return tl::unexpected(entered.error());
+  if (auto entered = enter(JobStore(options.out), list); !entered) {
+    return tl::unexpected(entered.error());
+  }
   options.kept_sequences = shared_sequences(list);
   return JobRunner(std::move(options)).run(part_of(list.jobs, list.shard), observer);
 }

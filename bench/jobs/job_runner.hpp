@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bench/jobs/job_store.hpp"
 #include "bench/jobs/sequence_cache.hpp"
@@ -116,11 +117,13 @@ class JobRunner {
 };
 
 /// Claims `options.out`, lists the jobs there (with the plan that they are of, see
-/// `JobStore::enter`), and does those of the shard.
+/// `JobStore::enter`, or else with the settings, see `JobStore::check_settings`), and does those of
+/// the shard.
 struct JobList {
   std::span<const Job> jobs;
   Shard shard = {};
   std::string plan = "";
+  std::vector<std::string> settings = {};  ///< "key=value" on top of every scenario
   bool force = false;
 };
 Result<JobRun> run_jobs(const JobList& list, JobOptions options, const JobObserver& observer);

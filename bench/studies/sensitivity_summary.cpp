@@ -48,9 +48,7 @@ std::string sensitivity_markdown(const SettingSensitivity& sensitivity, const Su
   if (!suite.complete) text += "\n**Interrupted: of the finished runs alone.**\n";
   text += "\n" + to_markdown(sensitivity_table(sensitivity));
   for (const std::string& line : left_out_lines(suite)) text += fmt::format("\n- {}", line);
-  for (const SuiteFailure& each : suite.failures) {
-    text += fmt::format("\n- failed: {}", text_of(each));
-  }
+  for (const RunFailure& each : suite.failures) text += markdown_item(each);
   return text;
 }
 

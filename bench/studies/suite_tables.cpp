@@ -55,14 +55,14 @@ TextTable matrix(const Suite& suite, const Cell& cell) {
 }
 
 /// Scenario, family, level and seed of a row.
-void add_start(const Scenario& scenario, const RunRecord& run, CsvTable& table) {
+void add_start(const Scenario& scenario, std::uint64_t seed, CsvTable& table) {
   table.add(scenario.name).add(scenario.family);
   if (scenario.family.empty()) {
     table.add_empty();
   } else {
     table.add(scenario.level);
   }
-  table.add(static_cast<std::int64_t>(run.seed));
+  table.add(static_cast<std::int64_t>(seed));
 }
 
 std::string expectations_markdown(const Suite& suite) {
@@ -97,7 +97,7 @@ std::string success_markdown(const Suite& suite) {
 
 std::string failures_markdown(const Suite& suite) {
   std::string text;
-  for (const SuiteFailure& each : suite.failures) text += fmt::format("- {}\n", text_of(each));
+  for (const RunFailure& each : suite.failures) text += markdown_item(each);
   for (const std::string& line : left_out_lines(suite)) text += fmt::format("- {}\n", line);
   return text.empty() ? "Everything ran, and every run is valid.\n" : text;
 }
@@ -159,6 +159,7 @@ TextTable breaks_table(const std::vector<FamilyResult>& families) {
 
 std::string suite_markdown(const Suite& suite, const std::vector<FamilyResult>& families) {
   std::string text = "# Suite\n\n";
+  if (!suite.settings.empty()) text += settings_markdown(suite.settings) + "\n";
   if (!suite.complete) text += "**Interrupted: of the finished runs alone.**\n\n";
   text +=
       "Each cell: median [95 % bootstrap interval of the median] worst, over seeds. Below about\n"
@@ -199,17 +200,22 @@ CsvTable suite_csv(const Suite& suite) {
   for (const SuiteCase& each : suite.cases) {
     for (const RunRecord& run : each.runs) {
       if (!is_valid_run(run)) {
-        add_start(each.scenario, run, table);
+        add_start(each.scenario, run.seed, table);
         table.add("").add("robot.valid").add(0.0).end_row();
         continue;
       }
       for (const std::string& estimator : labels_of(each.scenario.run)) {
         for (const std::string& key : score_keys(run, estimator)) {
           if (is_timing(key)) continue;
-          add_start(each.scenario, run, table);
+          add_start(each.scenario, run.seed, table);
           table.add(estimator).add(key).add(find_score(run, estimator, key)).end_row();
         }
       }
+    }
+    for (const RunFailure& failed : suite.failures) {
+      if (!failed.seed || failed.scenario != each.scenario.name) continue;
+      add_start(each.scenario, *failed.seed, table);
+      table.add(failed.estimator).add("failed").add(1.0).end_row();
     }
   }
   return table;

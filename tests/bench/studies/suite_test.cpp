@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 
+#include "bench/jobs/stored_results.hpp"
 #include "bench/studies/families.hpp"
 #include "bench/studies/success_pairs.hpp"
 #include "bench/studies/suite_summary.hpp"
@@ -150,6 +151,41 @@ TEST_F(SuiteRuns, GoOnPastAScenarioThatCannotRun) {
   EXPECT_EQ(suite.failures[0].scenario, "broken");
   EXPECT_EQ(suite.failures[1].seed, 1U);
   EXPECT_EQ(Json::parse(std::ifstream(out / "suite.json"))["failures"].size(), 3U);
+}
+
+TEST_F(SuiteRuns, StateWhatIsSetOnTopAndRefuseAFolderOfOtherSettings) {
+  const fs::path out = copy();
+  const auto with = [](const char* setting) {
+    std::vector<ScenarioFile> scenarios = two_walks();
+    for (ScenarioFile& each : scenarios) each.scenario->overrides = {setting, "run=[leg, aims]"};
+    return scenarios;
+  };
+  const auto refused = run_suite(with("lidar.range_max=9"), options_for(out), keep_going);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("holds results with no --set, and this command has --set "
+                                         "lidar.range_max=9; give another --out, or --overwrite"),
+            std::string::npos)
+      << refused.error().message;
+  SuiteOptions replace = options_for(out);
+  replace.jobs.redo = true;
+  run_or_die(with("lidar.range_max=9"), replace);
+  EXPECT_EQ(Json::parse(std::ifstream(out / "suite.json"))["settings"],
+            Json::parse(R"(["lidar.range_max=9"])"));
+  EXPECT_NE(read_file(out / "suite.md")->find("Set on top of the scenario: `lidar.range_max=9`."),
+            std::string::npos);
+  EXPECT_FALSE(run_suite(with("lidar.range_max=8"), options_for(out), keep_going));
+  EXPECT_TRUE(run_suite(with("lidar.range_max=9"), options_for(out), keep_going));
+}
+
+TEST_F(SuiteRuns, AreCompleteWithAnEstimatorThatFailed) {
+  const JobResult done{.scores = Json::object(), .sequence = Json::object()};
+  const JobResult failed{.outcome = JobOutcome::kFailed, .message = "add_legs: no"};
+  const std::vector<LabelledResult> results = {{"leg", done}, {"mine", failed}};
+  const Json scores = record_of("walk", 1, results).scores;
+  EXPECT_EQ(scores["complete"], true) << "the run reached its end";
+  EXPECT_EQ(scores["failures"],
+            Json::parse(R"([{"estimator": "mine", "message": "add_legs: no"}])"));
+  EXPECT_EQ(record_of("walk", 1, results, false).scores["complete"], false);
 }
 
 TEST_F(SuiteRuns, CheckTheExpectationsOverTheirSeeds) {

@@ -218,7 +218,9 @@ export interface SuitePayload extends PagePayload {
     scenarios: SuiteScenario[];
     families?: Family[];
     success_pairs?: SuccessPair[];
-    failures?: { scenario?: string; seed?: Maybe; message?: string }[];
+    failures?: { scenario?: string; seed?: Maybe; estimator?: string; message?: string }[];
+    /** "key=value" on top of every scenario. */
+    settings?: string[];
   };
   headline: Headline[];
   runs: Run[];
