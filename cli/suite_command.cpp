@@ -69,7 +69,7 @@ void print_suite(const Suite& suite, const SharedOptions& shared) {
   const TextTable pairs = success_pairs_table(suite, false);
   if (!pairs.rows.empty()) print_matrix("Pairs of estimators (McNemar's exact test)", pairs);
   const auto families = family_results(suite);
-  if (!families.empty()) print_matrix("Level of failure", breaks_table(families));
+  if (!families.empty()) print_matrix("Breakdown level", breaks_table(families));
   print_ring_notes(suite);
   print_expectations(suite);
   print_outcome(suite, shared);

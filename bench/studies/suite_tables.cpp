@@ -171,7 +171,8 @@ std::string suite_markdown(const Suite& suite, const std::vector<FamilyResult>& 
   text += success_markdown(suite);
   if (!families.empty()) {
     text += fmt::format(
-        "\n## Breaks at\n\nThe first level, going away from the mildest, where less than half of "
+        "\n## Breakdown level\n\nThe first level, going away from the mildest, where less than "
+        "half of "
         "the runs succeed or the median ATE yaw exceeds both twice that at the mildest and {:g} % "
         "of "
         "the route's length.\n\n{}",
