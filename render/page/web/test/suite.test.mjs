@@ -33,6 +33,13 @@ test("the matrix shows the suite's own numbers", { skip }, async () => {
   assert.deepEqual(troubles, []);
 });
 
+test("what was set and who failed stand at the head", { skip }, async () => {
+  const { page } = await pages.show(suite());
+  assert.equal(await page.innerText("[data-settings]"), "Set on top of the scenario: lidar.columns=90");
+  assert.match(await page.innerText("[data-failures]"), /One failure: mine\./);
+  assert.match(await page.innerText("#failures"), /severity_3, seed 2, mine: boom$/);
+});
+
 test("a diverged run is stated in words, not by colour alone", { skip }, async () => {
   const { page } = await pages.show(suite());
   assert.match(await cell(page, "severity_3", "b").innerText(), /✕ 3 of 3 diverged/);
