@@ -34,7 +34,10 @@ test("the matrix shows the suite's own numbers", { skip }, async () => {
 });
 
 test("what was set and who failed stand at the head", { skip }, async () => {
-  const { page } = await pages.show(suite());
+  const data = suite();
+  data.suite.settings = ["lidar.columns=90"];
+  data.suite.failures = [{ scenario: "severity_3", seed: 2, estimator: "mine", message: "boom\nsecond line" }];
+  const { page } = await pages.show(data);
   assert.equal(await page.innerText("[data-settings]"), "Set on top of the scenario: lidar.columns=90");
   assert.match(await page.innerText("[data-failures]"), /One failure: mine\./);
   assert.match(await page.innerText("#failures"), /severity_3, seed 2, mine: boom$/);

@@ -47,9 +47,7 @@ export function suite({ first = "a", names = ["severity_1", "severity_2", "sever
   return {
     schema: "aims.page/2", kind: "suite", title: "Suite made up", version: "0.1.0", headline: kHeadline, runs, roc: null, compare: null, notes: [],
     suite: {
-      schema: "aims.suite/1", version: "0.1.0", code: "0123456789abcdef", complete: true, scenarios,
-      settings: ["lidar.columns=90"],
-      failures: [{ scenario: "severity_3", seed: 2, estimator: "mine", message: "boom\nsecond line" }],
+      schema: "aims.suite/1", version: "0.1.0", code: "0123456789abcdef", complete: true, scenarios, failures: [],
       success_pairs: [{ first, second: "b", sequences: 12, mcnemar: { success: { only_first: 3, only_second: 0, p: 0.25 }, success_1_percent: { only_first: 0, only_second: 0, p: 1 } } }],
       families: [{ name: "severity", level_unit: "step", mildest_level: 1, median_equivalent_returns: [900, 80, null],
         estimators: { [first]: { breaks_at: [3], points: levels(first) }, b: { breaks_at: [], points: levels("b") } } }],
