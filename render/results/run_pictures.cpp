@@ -8,10 +8,10 @@
 #include <optional>
 #include <utility>
 
-#include "bench/jobs/stored_results.hpp"
 #include "bench/run/sequence.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "bench/scoring/estimator_files.hpp"
+#include "bench/scoring/score_record.hpp"
 #include "bench/scoring/start_anchor.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/tum.hpp"
@@ -46,9 +46,10 @@ struct DrawnRun {
 
 /// When the estimator diverged, as scores.json says; none if it did not.
 std::optional<Time> diverged_at(const fs::path& folder, const std::string& label) {
-  const auto record = read_record(folder / "scores.json");
-  if (!record) return std::nullopt;
-  const auto seconds = find_score(*record, label, "diverged_at_s");
+  const auto text = read_file(folder / "scores.json");
+  const auto scores = text ? parse_json(*text, "scores.json") : tl::unexpected(text.error());
+  if (!scores) return std::nullopt;
+  const auto seconds = number_at(member(member(*scores, "estimators"), label), "diverged_at_s");
   return seconds ? std::optional(from_seconds(*seconds)) : std::nullopt;
 }
 
