@@ -61,7 +61,7 @@ constexpr const char* kFooter =
     "Examples:\n"
     "  aims run corridor\n"
     "  aims run corridor --seeds 1-5 --estimators aims,lio --out out/compare\n"
-    "  aims run corridor --set lidar.range_max=30 --set estimators.aims.degeneracy.eta=5\n"
+    "  aims run corridor --set estimators.aims.degeneracy.eta=5 --out out/eta5\n"
     "  aims suite --tags stress --seeds 1-5 --out out/stress\n"
     "  aims sweep --param degeneracy.eta=0:6:13 --scenarios corridor --seeds 1-5\n"
     "  aims tune bench/tuning/plans/aims.yaml --out out/tune\n"
