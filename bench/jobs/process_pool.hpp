@@ -22,7 +22,8 @@ enum class ProcessEnd { kReturned, kCrashed, kTimedOut };
 struct EndedProcess {
   std::size_t key = 0;  ///< as given to `start`
   ProcessEnd end = ProcessEnd::kReturned;
-  std::string text;  ///< what the work returned; of a crash, by what
+  std::string text;      ///< what the work returned; of a crash, by what
+  double seconds = 0.0;  ///< wall time
 };
 
 /// Runs functions in processes of their own, copies of the calling one: they see all that it had in
@@ -41,8 +42,15 @@ class ProcessPool {
 
   bool has_room() const { return running_.size() < parts_.size(); }
   bool is_idle() const { return running_.empty(); }
+  /// A process that has not ended: how much it has done in which time.
+  struct UnderWay {
+    std::size_t key = 0;  ///< as given to `start`
+    double part = 0.0;    ///< in [0, 1]
+    double seconds = 0.0;
+  };
+  std::vector<UnderWay> under_way() const;
   /// Sum over the processes of how much each has done.
-  double under_way() const;
+  double part_under_way() const;
 
   /// Starts `work`, which is ended after `timeout_s` [s] of wall time, 0: never. What it throws
   /// counts as a crash. Error when the system gives no process.
