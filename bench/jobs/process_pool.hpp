@@ -27,9 +27,9 @@ struct EndedProcess {
 };
 
 /// Runs functions in processes of their own, copies of the calling one: they see all that it had in
-/// memory, and nothing of them but the returned text, and how far they are, comes back. None outlives
-/// the pool, nor the calling process however that ends. The calling process must have no other
-/// thread at work.
+/// memory, and nothing of them but the returned text, and how far they are, comes back. None
+/// outlives the pool, nor the calling process however that ends. The calling process must have no
+/// other thread at work.
 class ProcessPool {
  public:
   /// What a process does; it may set how much of it is done, in [0, 1].
@@ -64,7 +64,7 @@ class ProcessPool {
     std::size_t key = 0;
     pid_t pid = -1;
     std::size_t part = 0;  ///< index of how far it is
-    int pipe = -1;  ///< its text comes here; it ends with the process
+    int pipe = -1;         ///< its text comes here; it ends with the process
     double timeout_s = 0.0;
     Stopwatch stopwatch;
     std::string text;

@@ -23,8 +23,9 @@ constexpr const char* kSensitivityIntroduction =
 const TableColumns<SensitivityCell>& cell_columns() {
   using Cell = SensitivityCell;
   static const TableColumns<Cell> columns = {
-      {"factor", "", &Cell::factor}, {"ate_ratio", "", &Cell::ratio}, {"pairs", "", &Cell::pairs},
-      {"lost", "", &Cell::lost},     {"won", "", &Cell::won},         {"success_p", "", &Cell::success_p}};
+      {"factor", "", &Cell::factor}, {"ate_ratio", "", &Cell::ratio},
+      {"pairs", "", &Cell::pairs},   {"lost", "", &Cell::lost},
+      {"won", "", &Cell::won},       {"success_p", "", &Cell::success_p}};
   return columns;
 }
 

@@ -90,7 +90,8 @@ std::string success_markdown(const Suite& suite) {
   const TextTable pairs = success_pairs_table(suite, true);
   if (pairs.rows.empty()) return text;
   return text +
-         "\n### Pairs of estimators\n\nSequences on which one alone is a success; seeds on which one "
+         "\n### Pairs of estimators\n\nSequences on which one alone is a success; seeds on which "
+         "one "
          "succeeds on more sequences;\np: sign test over seeds, not corrected for the number of "
          "pairs.\n\n" +
          to_markdown(pairs);

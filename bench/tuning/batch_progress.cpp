@@ -36,7 +36,8 @@ JobProgress BatchProgress::overall(std::size_t jobs, const JobProgress& batch) {
 
 void BatchProgress::end(std::size_t jobs, const JobRun& run) {
   before_ += jobs;
-  for (std::size_t i = 0; i < last_.size(); ++i) work_before_[i] = sum_of(work_before_[i], last_[i]);
+  for (std::size_t i = 0; i < last_.size(); ++i)
+    work_before_[i] = sum_of(work_before_[i], last_[i]);
   last_ = {};
   ended_.done += run.done;
   ended_.failed += run.failed;

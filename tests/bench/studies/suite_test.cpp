@@ -212,7 +212,8 @@ TEST(Families, StateTheIntervalOfTheSuccessRate) {
   EXPECT_NEAR(none.success_interval.high.value(), 0.1611, 5e-5) << "Newcombe 1998: 0 of 20";
 }
 
-/// A suite of two scenarios; a run of that seed of `aims` and `lio` is a success where these say so.
+/// A suite of two scenarios; a run of that seed of `aims` and `lio` is a success where these say
+/// so.
 Suite suite_of_pairs(int seeds, const std::function<bool(bool first_scenario, int seed)>& aims,
                      const std::function<bool(bool first_scenario, int seed)>& lio) {
   Suite suite;
@@ -249,7 +250,9 @@ TEST(SuccessPairs, CountSeedsNotTheirScenarios) {
 TEST(SuccessPairs, OfASeedCountTheOneWithMoreSuccesses) {
   // Seed 1: one each, which decides nothing; seed 2: aims alone once, both once; seed 3: lio twice.
   const auto aims = [](bool first, int seed) { return seed == 1 ? first : seed == 2; };
-  const auto lio = [](bool first, int seed) { return seed == 1 ? !first : seed == 2 ? first : true; };
+  const auto lio = [](bool first, int seed) {
+    return seed == 1 ? !first : seed == 2 ? first : true;
+  };
   const Suite suite = suite_of_pairs(3, aims, lio);
   const SuccessTest test = success_pairs(suite).at(0).tests[0];
   EXPECT_EQ(test.only_first, 2U);
