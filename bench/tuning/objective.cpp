@@ -79,10 +79,14 @@ std::string text_of(const Objective& objective) {
                      objective.divergence_penalty, objective.divergence_penalty);
 }
 
-std::string axis_label(const Objective& objective) {
-  if (objective.relative) return "objective: " + objective.score + " over the defaults'";
+std::string value_label(const Objective& objective) {
+  if (objective.relative) return objective.score + " over the defaults'";
   const std::string unit = unit_of_score(objective.score);
-  return "objective: " + objective.score + (unit.empty() ? "" : " [" + unit + "]");
+  return objective.score + (unit.empty() ? "" : " [" + unit + "]");
+}
+
+std::string axis_label(const Objective& objective) {
+  return "objective: " + value_label(objective);
 }
 
 std::string unit_of_score(const std::string& score) {

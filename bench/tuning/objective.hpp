@@ -33,6 +33,9 @@ void describe(Fields& fields, Objective& objective);
 /// "median of ate_m over that of the defaults; a diverged run counts 10, and ...".
 std::string text_of(const Objective& objective);
 
+/// "ate_m [m]", or "ate_m over the defaults'": what its values are.
+std::string value_label(const Objective& objective);
+
 /// "objective: ate_m [m]", for axes.
 std::string axis_label(const Objective& objective);
 

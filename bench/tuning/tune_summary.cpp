@@ -334,8 +334,8 @@ TextTable front_table(const TuneResult& result) {
   TextTable text;
   for (const ParameterRange& range : task.ranges) text.header.push_back(range.key);
   for (const Objective& objective : task.plan.objectives) {
-    text.header.push_back(axis_label(objective));
-    if (!result.held_out.empty()) text.header.push_back(axis_label(objective) + ", held out");
+    text.header.push_back(value_label(objective));
+    if (!result.held_out.empty()) text.header.push_back(value_label(objective) + ", held out");
   }
   if (!result.held_out.empty()) text.header.emplace_back("against the defaults, held out");
   const auto row = [&](const std::vector<double>& values, std::size_t point, std::size_t held) {

@@ -313,7 +313,7 @@ TEST(Tune, TwoObjectivesGiveAFront) {
   EXPECT_LT(points[result->chosen.front()][0], points[result->chosen.back()][0]);
   const TextTable front = front_table(*result);
   EXPECT_GE(front.rows.size(), result->chosen.size());
-  EXPECT_EQ(front.header[3], "objective: ate_yaw_m over the defaults'");
+  EXPECT_EQ(front.header[3], "ate_yaw_m over the defaults'");
   EXPECT_EQ(front.header.size(), 3U + 4U + 1U);
   EXPECT_NE(held_out_verdict(*result).find("front"), std::string::npos)
       << held_out_verdict(*result);
