@@ -236,7 +236,8 @@ std::string verdict_text(const PairedGain& held_out) {
     return fmt::format("{}: {} ({})", better ? "use them" : "do not use them", on, figures);
   }
   if (may_be_better(held_out)) {
-    return fmt::format("undecided: {} ({}); more held-out seeds are needed", on, figures);
+    return fmt::format("undecided: {} ({}); more held-out seeds are needed{}", on, figures,
+                       is_small(held_out) ? ", and the gain so far is too small to matter" : "");
   }
   return fmt::format("do not use them: no significant difference from the defaults: {} ({})", on,
                      figures);

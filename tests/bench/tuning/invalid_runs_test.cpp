@@ -169,6 +169,9 @@ TEST(HeldOutVerdict, NeedsAGainThatMatters) {
   EXPECT_NE(verdict_text(small).find("mean change -0.0086 m"), std::string::npos);
   EXPECT_EQ(front_verdict_of(std::vector{small}), FrontVerdict::kNoDifference);
   EXPECT_EQ(verdict_of(paired_gain(falls_by(0.012), Objective(), 0)), Verdict::kUseThem);
+  PairedGain few = small;
+  few.p = 0.06;
+  EXPECT_NE(verdict_text(few).find("the gain so far is too small to matter"), std::string::npos);
   ResponseTable saved = falls_by(0.009);
   saved.default_runs[0].diverged = true;
   EXPECT_FALSE(is_small(paired_gain(saved, Objective(), 0))) << "a run less diverges";
