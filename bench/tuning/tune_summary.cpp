@@ -242,6 +242,9 @@ std::vector<std::string> verdict_lines(const TuneResult& result) {
 }
 
 std::string held_out_verdict(const TuneResult& result) {
+  if (keeps_defaults(result) && all_diverged(result.tables.front())) {
+    return "undecided: every run diverged or failed, with the defaults and with every other point";
+  }
   if (keeps_defaults(result)) {
     return fmt::format(
         "keep the defaults: none of the {} other points is better on the sequences "

@@ -287,6 +287,18 @@ TEST(Tune, LeavesAParameterWithoutEffectAtItsDefault) {
   EXPECT_EQ(result->generation.size(), table.points.size());
 }
 
+TEST(Tune, WhereEveryRunDivergesNothingIsDecided) {
+  TunePlan plan = small_plan();
+  plan.params = {"degeneracy.eta=0:6"};
+  const auto result = tune(task_of(plan), [](auto estimators, auto sequences) {
+    const std::vector<std::vector<RunScore>> lost(sequences.size(), {{40.0, true}});
+    return Result<std::optional<SequenceScores>>(SequenceScores(estimators.size(), lost));
+  });
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_TRUE(says(held_out_verdict(*result), "undecided: every run diverged or failed"));
+  EXPECT_EQ(verdict_lines(*result)[0], "tuned values: none");
+}
+
 TEST(Tune, RunsADefaultOutsideOfItsRangeAsItIsAndSaysSo) {
   TunePlan plan = small_plan();
   plan.params = {"degeneracy.eta=4:6"};
