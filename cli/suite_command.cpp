@@ -67,7 +67,7 @@ void print_suite(const Suite& suite, const SharedOptions& shared) {
     print_matrices(suite);
   }
   const TextTable pairs = success_pairs_table(suite, false);
-  if (!pairs.rows.empty()) print_matrix("Pairs of estimators (McNemar's exact test)", pairs);
+  if (!pairs.rows.empty()) print_matrix("Pairs of estimators (sign test over seeds)", pairs);
   const auto families = family_results(suite);
   if (!families.empty()) print_matrix("Breakdown level", breaks_table(families));
   print_ring_notes(suite);

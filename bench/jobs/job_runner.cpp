@@ -9,6 +9,26 @@
 namespace aims {
 namespace {
 
+/// Units of a kind from which on their mean time is known well enough, at most a tenth of them all.
+constexpr double kKnown = 3.0;
+
+}  // namespace
+
+std::optional<double> time_left(const KindOfWork& simulation, const KindOfWork& evaluation,
+                                int processes) {
+  double left_s = 0.0;
+  for (const KindOfWork* kind : {&simulation, &evaluation}) {
+    const auto total = static_cast<double>(kind->total);
+    const double left = total - kind->done;
+    if (left <= 0.0) continue;
+    if (kind->done <= 0.0 || kind->done < std::min(kKnown, 0.1 * total)) return std::nullopt;
+    left_s += left * kind->seconds / kind->done;
+  }
+  return left_s / processes;
+}
+
+namespace {
+
 /// Sequences that stay open between runs: each holds its truth, 8 MB for four minutes.
 constexpr std::size_t kOpenSequences = 32;
 

@@ -178,7 +178,7 @@ TextTable end_table(const ConsistencyStudy& study) {
     if (end.covered.interval.low) inside += " " + interval_text(end.covered.interval, "{:.2f}");
     table.rows.push_back(
         {each.scenario, each.estimator, fmt::format("{:.3f}", end.error_rms_m),
-         fmt::format("{:.3f}", end.sigma_rms_m), fmt::format("{:.3f}", end.bound_rms_m),
+         number_text(end.sigma_rms_m, "{:.3f}"), fmt::format("{:.3f}", end.bound_rms_m),
          fmt::format("{:.3f}", end.leg_bound_rms_m), number_text(end.nees, "{:.2f}"),
          interval_text(end.bounds, "{:.2f}"), inside});
   }

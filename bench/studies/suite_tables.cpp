@@ -90,8 +90,10 @@ std::string success_markdown(const Suite& suite) {
   const TextTable pairs = success_pairs_table(suite, true);
   if (pairs.rows.empty()) return text;
   return text +
-         "\n### Pairs of estimators\n\nSequences on which one alone is a success; p: McNemar's "
-         "exact test, not corrected for the\nnumber of pairs.\n\n" +
+         "\n### Pairs of estimators\n\nSequences on which one alone is a success; seeds on which "
+         "one "
+         "succeeds on more sequences;\np: sign test over seeds, not corrected for the number of "
+         "pairs.\n\n" +
          to_markdown(pairs);
 }
 
@@ -119,20 +121,21 @@ TextTable success_table(const Suite& suite, const Score& score) {
 
 TextTable success_pairs_table(const Suite& suite, bool all) {
   TextTable table;
-  table.header = {"estimators", "sequences"};
+  table.header = {"estimators", "sequences", "seeds"};
   for (const Score& score : success_scores()) {
     table.header.push_back(fmt::format("{}: first alone", score.title));
-    table.header.emplace_back("second alone");
-    table.header.emplace_back("p");
+    table.header.insert(table.header.end(), {"second alone", "seeds for first, second", "p"});
   }
   for (const SuccessPair& pair : success_pairs(suite)) {
     std::vector<std::string> row = {fmt::format("{}, {}", pair.first, pair.second),
-                                    std::to_string(pair.sequences)};
+                                    std::to_string(pair.tests[0].sequences),
+                                    std::to_string(pair.tests[0].seeds)};
     std::size_t different = 0;
-    for (const McNemarTest& test : pair.tests) {
+    for (const SuccessTest& test : pair.tests) {
       row.push_back(std::to_string(test.only_first));
       row.push_back(std::to_string(test.only_second));
-      row.push_back(fmt::format("{:.3g}", test.p));
+      row.push_back(fmt::format("{}, {}", test.by_seed.only_first, test.by_seed.only_second));
+      row.push_back(fmt::format("{:.3g}", test.by_seed.p));
       different += test.only_first + test.only_second;
     }
     if (all || different > 0) table.rows.push_back(std::move(row));
