@@ -108,7 +108,7 @@ void declare_benchmark(Command command, const fs::path& scenarios) {
       "Examples:\n"
       "  aims benchmark geode ~/geode\n"
       "  aims benchmark grandtour ~/grandtour --estimators aims_d,lio,fast_lio2\n"
-      "Exit codes: as of aims; 2 also when a sequence failed.");
+      "Exit codes: as of aims; 1 when a sequence failed.");
   command.action([arguments] {
     return answer("benchmark", arguments->json, [&] { return benchmark_command(*arguments); });
   });

@@ -88,7 +88,7 @@ int exit_code_of(const EstimateResult& result) {
   for (const EstimatorFailure& each : result.failures) {
     print_failure(fmt::format("aims estimate: {}: FAILED: {}", each.name, each.message));
   }
-  if (!result.failures.empty()) return kBadInput;
+  if (!result.failures.empty()) return kExpectationFailed;
   int code = kOk;
   for (const std::string& name : result.without_rings) {
     code = kInvalidRun;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "bench/scenario/catalogue.hpp"
@@ -26,6 +27,10 @@ void print_entries(const std::vector<CatalogueEntry>& entries) {
 }
 
 int list_command(const SharedOptions& shared, bool json) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(shared.folder, ignored)) {
+    return refuse("list", {"--folder " + shared.folder + ": expected a folder of scenarios"}, json);
+  }
   const auto files = scenario_heads(shared.folder, shared.tags);
   if (!files) return refuse("list", files.error(), json);
   if (json) {

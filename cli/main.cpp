@@ -61,7 +61,7 @@ constexpr const char* kFooter =
     "Examples:\n"
     "  aims run corridor\n"
     "  aims run corridor --seeds 1-5 --estimators aims,lio --out out/compare\n"
-    "  aims run corridor --set lidar.range_max=30 --set estimators.aims.degeneracy.eta=5\n"
+    "  aims run corridor --set estimators.aims.degeneracy.eta=5 --out out/eta5\n"
     "  aims suite --tags stress --seeds 1-5 --out out/stress\n"
     "  aims sweep --param degeneracy.eta=0:6:13 --scenarios corridor --seeds 1-5\n"
     "  aims tune bench/tuning/plans/aims.yaml --out out/tune\n"
@@ -72,10 +72,10 @@ constexpr const char* kFooter =
     "  aims estimate corridor.bag --estimators aims,lio\n"
     "  aims score --truth truth.tum --estimate mine.tum --segments a-b=12.5:110.2\n"
     "  aims page out/corridor-seed-1\n"
-    "Exit codes: 0 success; 1 an expectation of a scenario failed, or jobs failed or are\n"
-    "missing; 2 wrong usage, configuration or input; 3 internal error; 4 a run is invalid,\n"
-    "e.g. the robot fell, and no expectation demands it; 130 interrupted (Ctrl-C), 143\n"
-    "terminated (SIGTERM), 129 after a lost terminal (SIGHUP).";
+    "Exit codes: 0 success; 1 an expectation of a scenario failed, an estimator failed, or\n"
+    "jobs are missing; 2 wrong usage, configuration or input; 3 internal error; 4 a run is\n"
+    "invalid, e.g. the robot fell, and no expectation demands it; 130 interrupted (Ctrl-C),\n"
+    "143 terminated (SIGTERM), 129 after a lost terminal (SIGHUP).";
 
 }  // namespace
 

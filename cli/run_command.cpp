@@ -36,7 +36,6 @@ Result<SuiteOptions> options_of(const SharedOptions& given, const Scenario& scen
   }
   auto options = suite_options(shared, {});
   if (!options) return options;
-  options->jobs.redo = shared.overwrite;
   options->jobs.retry = true;
   options->jobs.outputs.trajectories = true;
   return options;
@@ -52,6 +51,20 @@ std::string seeds_text(const SuiteCase& each) {
 void print_health(const SuiteCase& each) {
   for (const RunRecord& run : each.runs) {
     for (const std::string& line : health_lines(run)) print_out("health: {}\n", line);
+  }
+}
+
+/// A line per seed and estimator with poses that no score can take.
+void print_invalid_poses(const SuiteCase& each) {
+  for (const RunRecord& run : each.runs) {
+    for (const auto& [name, scores] : run.scores["estimators"].items()) {
+      const int invalid = value_in(scores, "poses_invalid", 0);
+      if (invalid == 0) continue;
+      print_out(
+          "warning: {} seed {}: {} of {} poses left out: not finite, not rigid, or more than 1000 "
+          "km from the origin\n",
+          name, run.seed, invalid, value_in(scores, "poses", 0));
+    }
   }
 }
 
@@ -72,6 +85,7 @@ void print_run(const Suite& suite, const fs::path& out, const SharedOptions& sha
     print_scores_table(score_table(each.runs), several_seeds ? "summary.md" : "scores.json");
     print_out("{}\n", score_legend(each.runs, each.scenario.scoring));
     print_health(each);
+    print_invalid_poses(each);
   }
   print_ring_notes(suite);
   print_expectations(suite);
@@ -96,9 +110,6 @@ Result<Answer> run_command(const RunArguments& arguments) {
   const auto suite = run_with_display({{scenario->file, *scenario}}, *options, shared.quiet);
   if (!suite) return tl::unexpected(suite.error());
   const SuiteCase& each = suite->cases.front();
-  if (each.runs.empty() && !suite->failures.empty()) {
-    return failure(suite->failures.front().message);
-  }
   const fs::path& out = options->jobs.out;
   if (auto written = write_runs(*suite, out); !written) return tl::unexpected(written.error());
   if (!arguments.no_pictures) draw(run_folders(*suite, out), shared);

@@ -67,9 +67,9 @@ void print_suite(const Suite& suite, const SharedOptions& shared) {
     print_matrices(suite);
   }
   const TextTable pairs = success_pairs_table(suite, false);
-  if (!pairs.rows.empty()) print_matrix("Pairs of estimators (McNemar's exact test)", pairs);
+  if (!pairs.rows.empty()) print_matrix("Pairs of estimators (sign test over seeds)", pairs);
   const auto families = family_results(suite);
-  if (!families.empty()) print_matrix("Level of failure", breaks_table(families));
+  if (!families.empty()) print_matrix("Breakdown level", breaks_table(families));
   print_ring_notes(suite);
   print_expectations(suite);
   print_outcome(suite, shared);
@@ -125,8 +125,7 @@ void declare_suite(Command command, const fs::path& scenarios) {
       "  aims suite --tags severity --seeds 1-10 --out out/severity\n"
       "  aims suite corridor corridor_smooth --seeds 1-5 --estimators aims,lio\n"
       "  aims suite --tags stress --seeds 1-3 --set estimators.aims.degeneracy.eta=5 --out "
-      "out/eta5\n"
-      "Exit codes: as of aims; 2 also when a job failed.");
+      "out/eta5");
   command.action([arguments] {
     return answer("suite", arguments->json, [&] { return suite_command(*arguments); });
   });

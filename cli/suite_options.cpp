@@ -25,6 +25,7 @@ void add_suite_options(Command& command, SharedOptions& options, const std::stri
   add_cache(command, options);
   add_jobs(command, options);
   add_retry(command, options);
+  add_overwrite(command, options);
   add_quiet(command, options);
 }
 
@@ -35,6 +36,7 @@ Result<SuiteOptions> suite_options(const SharedOptions& options,
   SuiteOptions suite;
   suite.seeds = std::move(*seeds);
   suite.jobs = job_options(options);
+  suite.jobs.redo = options.overwrite;
   return suite;
 }
 
@@ -93,17 +95,23 @@ void print_ring_notes(const Suite& suite) {
 }
 
 void print_outcome(const Suite& suite, const SharedOptions& options) {
-  print_out("{} jobs done, {} found finished, {} sequences simulated\n", suite.run.done,
-            suite.run.reused, suite.run.sequences);
+  const bool cached = suite.run.done > 0 && suite.run.sequences == 0;
+  print_out("{} jobs done, {} found finished, {}\n", suite.run.done, suite.run.reused,
+            cached ? "sequences from the cache"
+                   : fmt::format("{} sequences simulated", suite.run.sequences));
   print_pruned(suite.run.pruned, options);
-  for (const SuiteFailure& each : suite.failures) print_out("FAILED: {}\n", text_of(each));
+  for (const RunFailure& each : suite.failures) print_out("FAILED: {}\n", text_of(each));
   print_invalid(suite);
   if (!suite.complete) print_out("interrupted: the same command continues\n");
 }
 
 int exit_code_of(const Suite& suite) {
   if (!suite.complete) return interrupted_code();
-  if (!suite.failures.empty()) return kBadInput;
+  if (!suite.failures.empty()) {
+    const bool loaded = std::ranges::all_of(
+        suite.failures, [](const RunFailure& each) { return each.seed.has_value(); });
+    return loaded ? kExpectationFailed : kBadInput;
+  }
   const bool as_demanded = std::ranges::all_of(
       suite.cases, [](const SuiteCase& each) { return undemanded_runs(each).empty(); });
   return as_demanded ? kOk : kInvalidRun;

@@ -13,7 +13,7 @@
 namespace aims {
 
 /// The options of `aims suite` and of the studies on a suite: scenarios, seeds, --set, --out,
-/// --cache, --jobs, --retry, --quiet.
+/// --cache, --jobs, --retry, --overwrite, --quiet.
 void add_suite_options(Command& command, SharedOptions& options, const std::string& folder,
                        const std::string& seeds);
 
@@ -37,7 +37,7 @@ void print_ring_notes(const Suite& suite);
 /// Prints how many jobs were done, those that failed, and whether the suite was interrupted.
 void print_outcome(const Suite& suite, const SharedOptions& options);
 
-/// Interrupted, bad input for failed jobs, or success.
+/// Interrupted, bad input for a scenario that does not load, 1 for failed jobs, or success.
 int exit_code_of(const Suite& suite);
 
 /// The same, where a failed expectation counts.

@@ -146,7 +146,8 @@ Result<Answer> sweep_command(const SweepArguments& arguments) {
   watch_interrupt();
   JobDisplay display(arguments.shared.quiet);
   const auto run =
-      run_jobs({*jobs, *shard, plan_text(*plan), arguments.force}, options, display.observer());
+      run_jobs({.jobs = *jobs, .shard = *shard, .plan = plan_text(*plan), .force = arguments.force},
+               options, display.observer());
   display.close();
   if (!run) return tl::unexpected(run.error());
   const bool whole = shard->count == 1 && !options.simulate_only;

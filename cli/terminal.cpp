@@ -2,12 +2,14 @@
 #include "cli/terminal.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
 #include <sstream>
 #include <string>
 #include <system_error>
@@ -31,12 +33,32 @@ constexpr std::array kLeast = {"ATE SE(3)", "ATE Sim(3)",  "path error deg", "RP
                                "RPE",       "path error",  "M_end",          "poses",
                                "ATE start", "max |z|",     "M_list(",        "within 1 %"};
 
-/// Characters in a line of standard output.
+/// Characters in a line of standard output; `COLUMNS` of the environment comes first.
 std::size_t output_width() {
   constexpr std::size_t kWithoutTerminal = 120;
+  if (const char* columns = std::getenv("COLUMNS"); columns != nullptr) {
+    std::size_t width = 0;
+    const char* end = columns + std::strlen(columns);
+    if (std::from_chars(columns, end, width).ptr == end && width > 0) return width;
+  }
   winsize size{};
   const bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
   return known ? size.ws_col : kWithoutTerminal;
+}
+
+/// "start a, b,\n  c\n" in lines of at most `width` characters.
+std::string list_lines(std::string line, const std::vector<std::string>& items, std::size_t width) {
+  std::string text;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const bool last = i + 1 == items.size();
+    if (i > 0 && line.size() + items[i].size() + (last ? 0 : 1) > width) {
+      line.pop_back();
+      text += line + "\n";
+      line = "  ";
+    }
+    line += items[i] + (last ? "\n" : ", ");
+  }
+  return text + line;
 }
 
 }  // namespace
@@ -44,7 +66,8 @@ std::size_t output_width() {
 void print_scores_table(const TextTable& table, std::string_view file) {
   std::vector<std::string> left_out;
   print_out("{}", to_text(narrowed(table, output_width(), kLeast, left_out)));
-  if (!left_out.empty()) print_out("in {} alone: {}\n", file, fmt::join(left_out, ", "));
+  if (left_out.empty()) return;
+  print_out("{}", list_lines(fmt::format("in {} alone: ", file), left_out, output_width()));
 }
 
 void print_error(std::string_view message) { write_terminal(stderr, line_text(message) + "\n"); }

@@ -23,8 +23,8 @@ void print_out(fmt::format_string<Arguments...> format, Arguments&&... arguments
   write_terminal(stdout, fmt::format(format, std::forward<Arguments>(arguments)...));
 }
 
-/// Prints a table of scores, without its less telling columns where the terminal, or 120 characters
-/// of what is none, is narrower; says which are only in `file`.
+/// Prints a table of scores, without its less telling columns where `COLUMNS`, the terminal or, of
+/// what is none, 120 characters are narrower; says which are only in `file`.
 void print_scores_table(const TextTable& table, std::string_view file);
 
 /// An error or a note on standard error, in one line.

@@ -71,7 +71,9 @@ Result<TuneResult> work(const SharedOptions& shared, const TuneTask& task) {
 
 /// Prints where the values of --apply are and whether to use them.
 void print_applied(const TuneResult& result, const std::string& file) {
-  if (verdict_of(held_out_gain(result)) == Verdict::kUseThem) {
+  if (keeps_defaults(result)) {
+    print_out("written: {}, without any value: the defaults are kept\n", file);
+  } else if (verdict_of(held_out_gain(result)) == Verdict::kUseThem) {
     print_out("written: {0}; to use the values: --set @{0}\n", file);
   } else {
     print_out("written: {}; see the verdict before you use the values\n", file);
@@ -93,6 +95,7 @@ void print_outcome(const TuneResult& result) {
     print_out("objective: {}\n", text_of(each));
   }
   print_out("search: {}\n", search_text(result));
+  for (const std::string& line : defaults_outside(result.task)) print_out("note: {}\n", line);
 }
 
 Result<Answer> finish(const TuneArguments& arguments, TuneResult& result) {

@@ -76,7 +76,7 @@ std::vector<std::string> names_in(const std::vector<std::string>& keys, std::str
   return names;
 }
 
-/// The known key most similar to the unknown `key`, or empty.
+/// The known key most similar to the unknown `key`, with a similar name, or empty.
 std::string proposal_for(const std::vector<std::string>& keys, std::string_view key,
                          std::size_t name_start) {
   const std::string prefix(key.substr(0, name_start));
@@ -87,7 +87,13 @@ std::string proposal_for(const std::vector<std::string>& keys, std::string_view 
   for (const std::string& each : keys) {
     if (each == name || each.ends_with("." + name)) same_name.push_back(each);
   }
-  const std::string nearest = near_match(key, same_name.empty() ? keys : same_name);
+  std::vector<std::string> similar = same_name;
+  for (const std::string& each : keys) {
+    if (!same_name.empty()) break;
+    const bool near = !near_match(name, {each.substr(each.rfind('.') + 1)}).empty();
+    if (near) similar.push_back(each);
+  }
+  const std::string nearest = near_match(key, similar);
   return nearest.empty() && !same_name.empty() ? same_name.front() : nearest;
 }
 

@@ -159,6 +159,10 @@ Result<void> read_estimates(const ScoringRequest& request, std::vector<StampList
       if (moved) each.pose = each.pose * T_estimate_body;
     }
     const std::string name = request.names.empty() ? name_of(*file) : request.names[i];
+    if (name == "truth") {
+      return failure(fmt::format(
+          "--estimate {}: 'truth' is the name of the truth; give another with --name", source));
+    }
     input.estimates.push_back({unique_name(name, input.estimates), source, file->kind,
                                std::move(file->trajectory), file->body_frame});
     input.estimates.back().T_body_estimate = *extrinsic;

@@ -9,6 +9,26 @@
 namespace aims {
 namespace {
 
+/// Units of a kind from which on their mean time is known well enough, at most a tenth of them all.
+constexpr double kKnown = 3.0;
+
+}  // namespace
+
+std::optional<double> time_left(const KindOfWork& simulation, const KindOfWork& evaluation,
+                                int processes) {
+  double left_s = 0.0;
+  for (const KindOfWork* kind : {&simulation, &evaluation}) {
+    const auto total = static_cast<double>(kind->total);
+    const double left = total - kind->done;
+    if (left <= 0.0) continue;
+    if (kind->done <= 0.0 || kind->done < std::min(kKnown, 0.1 * total)) return std::nullopt;
+    left_s += left * kind->seconds / kind->done;
+  }
+  return left_s / processes;
+}
+
+namespace {
+
 /// Sequences that stay open between runs: each holds its truth, 8 MB for four minutes.
 constexpr std::size_t kOpenSequences = 32;
 
@@ -77,11 +97,23 @@ void JobRunner::prune(std::set<std::string> kept) {
   pruned_.left = now.left;
 }
 
+namespace {
+
+Result<void> enter(const JobStore& store, const JobList& list) {
+  if (!list.plan.empty()) return store.enter(list.jobs, list.plan, list.force);
+  auto done = list.force ? Result<void>() : store.check_settings(list.settings);
+  if (done) done = store.enter(list.jobs, "", list.force);
+  return done ? store.keep_settings(list.settings) : done;
+}
+
+}  // namespace
+
 Result<JobRun> run_jobs(const JobList& list, JobOptions options, const JobObserver& observer) {
   const auto claim = claim_store(options.out, list.shard);
   if (!claim) return tl::unexpected(claim.error());
-  auto entered = JobStore(options.out).enter(list.jobs, list.plan, list.force);
-  if (!entered) return tl::unexpected(entered.error());
+  if (auto entered = enter(JobStore(options.out), list); !entered) {
+    return tl::unexpected(entered.error());
+  }
   options.kept_sequences = shared_sequences(list);
   return JobRunner(std::move(options)).run(part_of(list.jobs, list.shard), observer);
 }

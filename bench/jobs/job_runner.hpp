@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bench/jobs/job_store.hpp"
 #include "bench/jobs/sequence_cache.hpp"
@@ -38,6 +39,18 @@ struct JobOptions {
   JobOutputs outputs;          ///< that are kept besides scores
 };
 
+/// Work of one kind and the wall time of its processes.
+struct KindOfWork {
+  std::size_t total = 0;
+  double done = 0.0;     ///< what is under way counts in part
+  double seconds = 0.0;  ///< that this took
+};
+
+/// The time that is left on so many processes: what is left of each kind at its own rate. None as
+/// long as too little is done of any kind that is left: simulating takes longer than estimating.
+std::optional<double> time_left(const KindOfWork& simulation, const KindOfWork& evaluation,
+                                int processes);
+
 /// How far the jobs have come.
 struct JobProgress {
   std::size_t done = 0;       ///< of this invocation, failures included
@@ -47,7 +60,10 @@ struct JobProgress {
   std::size_t sequences = 0;  ///< simulated
   double fraction = 0.0;      ///< of all work, what is under way included, in [0, 1]
   double elapsed_s = 0.0;
-  std::optional<double> left_s;  ///< none before anything is known
+  KindOfWork simulation;         ///< sequences to be simulated
+  KindOfWork evaluation;         ///< jobs
+  int processes = 1;             ///< at a time
+  std::optional<double> left_s;  ///< none before enough is done
 };
 
 /// Returning false ends the work with what is finished.
@@ -116,11 +132,13 @@ class JobRunner {
 };
 
 /// Claims `options.out`, lists the jobs there (with the plan that they are of, see
-/// `JobStore::enter`), and does those of the shard.
+/// `JobStore::enter`, or else with the settings, see `JobStore::check_settings`), and does those of
+/// the shard.
 struct JobList {
   std::span<const Job> jobs;
   Shard shard = {};
   std::string plan = "";
+  std::vector<std::string> settings = {};  ///< "key=value" on top of every scenario
   bool force = false;
 };
 Result<JobRun> run_jobs(const JobList& list, JobOptions options, const JobObserver& observer);

@@ -63,9 +63,11 @@ JobSchedule::JobSchedule(JobRunner& runner, std::span<const Job> jobs, const Job
     if (runner_.cache_.has(sequence.id)) sequence.state = SequenceWork::State::kReady;
     if (runner_.options_.simulate_only) sequence.next = sequence.jobs.size();
     progress_.total += sequence.jobs.size() - sequence.next;
-    steps_ += sequence.state == SequenceWork::State::kMissing ? 1 : 0;
+    progress_.simulation.total += sequence.state == SequenceWork::State::kMissing ? 1 : 0;
   }
-  steps_ += progress_.total;
+  progress_.evaluation.total = progress_.total;
+  progress_.processes = runner_.options_.jobs;
+  steps_ = progress_.simulation.total + progress_.total;
 }
 
 Result<JobRun> JobSchedule::run() {
@@ -132,6 +134,7 @@ Result<void> JobSchedule::start_job(SequenceWork& work) {
     work.remade = true;
     work.state = SequenceWork::State::kMissing;
     ++steps_;
+    ++progress_.simulation.total;
     std::error_code ignored;
     fs::remove(runner_.cache_.file_of(work.id), ignored);
     return {};
@@ -173,6 +176,9 @@ Result<void> JobSchedule::take(const EndedProcess& ended) {
   if (ended.end == ProcessEnd::kReturned) reply = Json::parse(ended.text, nullptr, false);
   if (reply.contains("error")) return failure(reply["error"].get<std::string>());
   ++steps_done_;
+  KindOfWork& kind = task.job == nullptr ? ended_simulation_ : ended_evaluation_;
+  kind.done += 1.0;
+  kind.seconds += ended.seconds;
   return task.job == nullptr ? take_sequence(*task.sequence, ended, reply)
                              : take_job(*task.job, ended, reply);
 }
@@ -225,15 +231,26 @@ Result<void> JobSchedule::fail(const Job& job, JobOutcome outcome, std::string m
   return runner_.store_.put(job, result);
 }
 
+/// What has ended and what is under way.
+void JobSchedule::measure_work() {
+  KindOfWork& simulation = progress_.simulation;
+  KindOfWork& evaluation = progress_.evaluation;
+  simulation = {simulation.total, ended_simulation_.done, ended_simulation_.seconds};
+  evaluation = {evaluation.total, ended_evaluation_.done, ended_evaluation_.seconds};
+  for (const ProcessPool::UnderWay& each : pool_.under_way()) {
+    KindOfWork& kind = tasks_[each.key].job == nullptr ? simulation : evaluation;
+    kind.done += each.part;
+    kind.seconds += each.seconds;
+  }
+}
+
 bool JobSchedule::notify() {
   progress_.elapsed_s = stopwatch_.seconds();
-  const double done = static_cast<double>(steps_done_) + pool_.under_way();
+  measure_work();
+  const double done = static_cast<double>(steps_done_) + pool_.part_under_way();
   const double fraction = steps_ == 0 ? 1.0 : std::min(1.0, done / static_cast<double>(steps_));
   progress_.fraction = std::max(progress_.fraction, fraction);  // a sequence made anew adds a step
-  progress_.left_s.reset();
-  if (progress_.fraction > 0.0) {
-    progress_.left_s = progress_.elapsed_s * (1.0 - progress_.fraction) / progress_.fraction;
-  }
+  progress_.left_s = time_left(progress_.simulation, progress_.evaluation, progress_.processes);
   return observer_(progress_);
 }
 

@@ -53,6 +53,7 @@ class JobSchedule {
   Result<void> take_job(const Job& job, const EndedProcess& ended, const Json& reply);
   Result<void> fail(const Job& job, JobOutcome outcome, std::string message);
   void prune();
+  void measure_work();
   bool notify();
 
   JobRunner& runner_;
@@ -64,6 +65,8 @@ class JobSchedule {
   JobProgress progress_;
   std::size_t steps_ = 0;       ///< jobs and sequences to be done
   std::size_t steps_done_ = 0;  ///< of them
+  KindOfWork ended_simulation_;
+  KindOfWork ended_evaluation_;
   JobRun run_;
   Stopwatch stopwatch_;
 };

@@ -13,6 +13,7 @@
 #include "core/files/atomic_file.hpp"
 #include "core/files/csv.hpp"
 #include "core/files/csv_columns.hpp"
+#include "core/text.hpp"
 
 namespace aims {
 namespace {
@@ -21,6 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kListFile = "jobs.csv";
 constexpr const char* kPlanFile = "plan.yaml";
+constexpr const char* kSettingsFile = "settings.txt";
 constexpr std::string_view kCodeLine = "# code ";
 
 /// plan.yaml: the plan, and the code that its ids are of.
@@ -75,6 +77,16 @@ std::string mismatch(const std::string& plan_there, const std::string& plan_here
          "class in Python";
 }
 
+/// "--set a=1 --set b=2", or that there is none.
+std::string options_text(const std::string& settings) {
+  std::istringstream lines(settings);
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    text += fmt::format("{}--set {}", text.empty() ? "" : " ", line);
+  }
+  return text.empty() ? "no --set" : text;
+}
+
 /// A folder that is not there, is a job store, or holds nothing but what a claim leaves.
 bool is_store_or_empty(const fs::path& folder) {
   std::error_code ignored;
@@ -120,6 +132,21 @@ Result<void> JobStore::enter(std::span<const Job> jobs, const std::string& plan,
     return written;
   }
   return write_file_atomically(folder_ / kListFile, list_here);
+}
+
+Result<void> JobStore::check_settings(const std::vector<std::string>& settings) const {
+  const auto there = read_file(folder_ / kSettingsFile);
+  const std::string here = fmt::format("{}", fmt::join(settings, "\n"));
+  if (!there || *there == here) return {};
+  return failure(line_text(
+      fmt::format("{}: holds results with {}, and this command has {}; give another --out, or "
+                  "--overwrite to replace them",
+                  folder_.string(), options_text(*there), options_text(here))));
+}
+
+Result<void> JobStore::keep_settings(const std::vector<std::string>& settings) const {
+  return write_file_atomically(folder_ / kSettingsFile,
+                               fmt::format("{}", fmt::join(settings, "\n")));
 }
 
 Result<std::vector<ListedJob>> JobStore::listed() const {

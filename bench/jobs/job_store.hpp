@@ -37,6 +37,7 @@ struct ListedJob {
 ///                           estimate.map.ply, weak_axis.csv
 ///   sequences/ID/           truth.tum, localizability.csv, ... of a sequence, with trajectories
 ///   plan.yaml               of a sweep
+///   settings.txt            of others: what is set on top of every scenario, one a line
 ///   shards/I-of-N/.lock     while a shard is worked on
 ///
 /// A file appears at once, complete, and is decided by the id in its name, so that any number of
@@ -48,6 +49,11 @@ class JobStore {
   /// Lists the jobs. With a `plan`, the folder must be new or of the same plan, code and scenarios;
   /// with `force` it becomes one of these, and results that are also of these stay valid.
   Result<void> enter(std::span<const Job> jobs, const std::string& plan, bool force) const;
+
+  /// Error when the folder holds jobs of scenarios with other settings ("key=value") on top.
+  Result<void> check_settings(const std::vector<std::string>& settings) const;
+  /// Notes the settings that its jobs have.
+  Result<void> keep_settings(const std::vector<std::string>& settings) const;
 
   /// The jobs that were last asked for. Error when the folder is no job store.
   Result<std::vector<ListedJob>> listed() const;

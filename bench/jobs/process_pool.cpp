@@ -76,7 +76,15 @@ ProcessPool::~ProcessPool() {
   ::munmap(parts_.data(), parts_.size_bytes());
 }
 
-double ProcessPool::under_way() const {
+std::vector<ProcessPool::UnderWay> ProcessPool::under_way() const {
+  std::vector<UnderWay> all;
+  for (const Running& each : running_) {
+    all.push_back({each.key, parts_[each.part], each.stopwatch.seconds()});
+  }
+  return all;
+}
+
+double ProcessPool::part_under_way() const {
   double sum = 0.0;
   for (const Running& each : running_) sum += parts_[each.part];
   return sum;
@@ -141,7 +149,8 @@ EndedProcess ProcessPool::reap(Running& running) {
   int status = 0;
   while (::waitpid(running.pid, &status, 0) < 0 && errno == EINTR) continue;
   ::close(running.pipe);
-  EndedProcess ended{running.key, ProcessEnd::kReturned, std::move(running.text)};
+  EndedProcess ended{running.key, ProcessEnd::kReturned, std::move(running.text),
+                     running.stopwatch.seconds()};
   if (running.timed_out) {
     ended.end = ProcessEnd::kTimedOut;
   } else if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {

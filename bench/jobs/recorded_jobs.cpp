@@ -91,7 +91,7 @@ Result<JobRun> run_recorded_jobs(const std::vector<RecordedJob>& jobs, const Job
       const auto result = store.find(each.job.id);
       run.failed += result && result->outcome == JobOutcome::kDone ? 0 : 1;
     }
-    run.complete = observer(progress_of(run, missing.size(), pool.under_way(), stopwatch));
+    run.complete = observer(progress_of(run, missing.size(), pool.part_under_way(), stopwatch));
   }
   return run;
 }

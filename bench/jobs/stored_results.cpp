@@ -23,24 +23,31 @@ std::uint64_t seed_of(const std::string& text) {
   return seed;
 }
 
-/// The finished jobs of a store, by scenario and seed.
+/// What the jobs of one scenario and seed came to.
+struct StoredRun {
+  std::vector<LabelledResult> results;
+  bool complete = true;
+};
+
+/// The jobs of a store that have ended, by scenario and seed.
 Result<StoredResults> read_store(const JobStore& store) {
   const auto listed = store.listed();
   if (!listed) return tl::unexpected(listed.error());
-  std::map<std::pair<std::string, std::uint64_t>, std::vector<LabelledResult>> runs;
+  std::map<std::pair<std::string, std::uint64_t>, StoredRun> runs;
   for (const ListedJob& job : *listed) {
     auto result = store.find(job.id);
-    if (!result || result->outcome != JobOutcome::kDone) continue;
-    auto& run = runs[{job.scenario, seed_of(job.seed)}];
+    StoredRun& run = runs[{job.scenario, seed_of(job.seed)}];
+    run.complete = run.complete && result;
+    if (!result) continue;
     // Points of a sweep share a label.
-    const bool repeated = std::any_of(run.begin(), run.end(), [&](const LabelledResult& each) {
-      return each.label == job.label;
-    });
-    run.push_back({repeated ? job.estimator : job.label, std::move(*result)});
+    const bool repeated = std::ranges::any_of(
+        run.results, [&](const LabelledResult& each) { return each.label == job.label; });
+    run.results.push_back({repeated ? job.estimator : job.label, std::move(*result)});
   }
   StoredResults results;
   for (const auto& [key, run] : runs) {
-    results[key.first].push_back(record_of(key.first, key.second, run));
+    RunRecord record = record_of(key.first, key.second, run.results, run.complete);
+    if (!record.scores["estimators"].empty()) results[key.first].push_back(std::move(record));
   }
   return results;
 }
@@ -48,19 +55,17 @@ Result<StoredResults> read_store(const JobStore& store) {
 }  // namespace
 
 RunRecord record_of(const std::string& scenario, std::uint64_t seed,
-                    std::span<const LabelledResult> results) {
+                    std::span<const LabelledResult> results, bool complete) {
   RunRecord record;
   record.seed = seed;
-  record.scores = {{"schema", kScoresSchema},
-                   {"version", AIMS_VERSION},
-                   {"scenario", scenario},
-                   {"seed", seed},
-                   {"complete", true}};
+  record.scores = {{"schema", kScoresSchema}, {"version", AIMS_VERSION},
+                   {"scenario", scenario},    {"seed", seed},
+                   {"complete", complete},    {"failures", Json::array()}};
   Json estimators = Json::object();
   Json times = Json::object();
   for (const auto& [label, result] : results) {
     if (result.outcome != JobOutcome::kDone) {
-      record.scores["complete"] = false;
+      record.scores["failures"].push_back({{"estimator", label}, {"message", result.message}});
       continue;
     }
     for (const auto& [key, value] : result.sequence.items()) {

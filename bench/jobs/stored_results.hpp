@@ -19,10 +19,10 @@ struct LabelledResult {
   JobResult result;
 };
 
-/// What the finished jobs of one scenario and seed came to, as one record; those that failed are
-/// left out.
+/// What the jobs of one scenario and seed came to, as one record; those that failed stand under
+/// `failures`. `complete`: whether all of them have ended.
 RunRecord record_of(const std::string& scenario, std::uint64_t seed,
-                    std::span<const LabelledResult> results);
+                    std::span<const LabelledResult> results, bool complete = true);
 
 /// Reads a scores.json; error when it is not one, e.g. cut short.
 Result<RunRecord> read_record(const std::filesystem::path& file);

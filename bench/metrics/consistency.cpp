@@ -67,7 +67,7 @@ ConsistencyInstant instant_of(double time_s, const Squares& sums) {
   instant.nees = sums.mean_nees();
   instant.bounds = mean_nees_bounds(sums.stated);
   instant.error_rms_m = root_mean(sums.error, sums.count);
-  instant.sigma_rms_m = root_mean(sums.sigma, sums.stated);
+  if (sums.stated > 0) instant.sigma_rms_m = root_mean(sums.sigma, sums.stated);
   instant.bound_rms_m = root_mean(sums.bound, sums.count);
   instant.leg_bound_rms_m = root_mean(sums.leg_bound, sums.count);
   instant.efficiency = sums.efficiency();

@@ -33,11 +33,11 @@ struct Coverage {
 /// One instant over all runs that reach it.
 struct ConsistencyInstant {
   double time_s = 0.0;
-  Coverage covered;            ///< inside 2 sigma, of the runs that state a covariance here
-  std::optional<double> nees;  ///< mean over them of error^2 over the stated variance
-  Interval bounds;             ///< 95 % bounds of a consistent filter: chi-square / runs
-  double error_rms_m = 0.0;    ///< over runs, as are the following
-  double sigma_rms_m = 0.0;
+  Coverage covered;                   ///< inside 2 sigma, of the runs that state a covariance here
+  std::optional<double> nees;         ///< mean over them of error^2 over the stated variance
+  Interval bounds;                    ///< 95 % bounds of a consistent filter: chi-square / runs
+  double error_rms_m = 0.0;           ///< over runs, as are the following
+  std::optional<double> sigma_rms_m;  ///< of the runs that state a covariance
   double bound_rms_m = 0.0;
   double leg_bound_rms_m = 0.0;
   std::optional<double> efficiency;  ///< bound over error, both rms

@@ -84,6 +84,8 @@ std::string_view name_of(FailureReason reason) {
   switch (reason) {
     case FailureReason::kNone:
       return "";
+    case FailureReason::kNoPoses:
+      return "no_poses";
     case FailureReason::kNoOverlap:
       return "no_overlap";
     case FailureReason::kInvalid:
@@ -108,6 +110,7 @@ std::string_view name_of(FailureReason reason) {
 
 SuccessVerdict judge(const Trajectory& estimate, const Trajectory& truth,
                      std::span<const PosePair> pairs, const SuccessLimits& limits) {
+  if (estimate.empty()) return {FailureReason::kNoPoses, std::nullopt};
   SuccessVerdict verdict;
   note_invalid_poses(verdict, estimate);
   if (truth.empty() || pairs.size() < 2) {

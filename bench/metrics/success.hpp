@@ -13,6 +13,7 @@ namespace aims {
 /// Why an estimate is not a success.
 enum class FailureReason {
   kNone,         ///< success
+  kNoPoses,      ///< the estimator never returned a pose
   kNoOverlap,    ///< fewer than two estimated poses in the time span of the truth
   kInvalid,      ///< a pose that is not finite or not a rigid transform
   kStartsLate,   ///< no estimate near the start of the truth
@@ -24,7 +25,8 @@ enum class FailureReason {
   kInterrupted,  ///< the user ended it
 };
 
-/// Identifier for result files: "", "no_overlap", "invalid_pose", "starts_late", "gap", ...
+/// Identifier for result files: "", "no_poses", "no_overlap", "invalid_pose", "starts_late", "gap",
+/// ...
 std::string_view name_of(FailureReason reason);
 
 /// Allowed position error per metre of path of a success, and of one within 1 % [-].

@@ -14,8 +14,13 @@
 namespace aims {
 namespace {
 
-Json summary_json(const Scenario& scenario, std::span<const RunRecord> runs) {
-  Json summary = {{"schema", "aims.summary/2"}, {"scenario", scenario.name}};
+Json summary_json(const SeedRuns& seeds) {
+  const auto& [scenario, runs, failures, complete] = seeds;
+  Json summary = {{"schema", "aims.summary/2"},
+                  {"scenario", scenario.name},
+                  {"settings", settings_of(scenario)},
+                  {"complete", complete},
+                  {"failures", failures_json(failures)}};
   for (const RunRecord& run : runs) summary["seeds"].push_back(run.seed);
   summary["invalid"] = invalid_json(runs);
   summary["estimators"] = Json::object();
@@ -36,22 +41,42 @@ Json summary_json(const Scenario& scenario, std::span<const RunRecord> runs) {
   return summary;
 }
 
-std::string markdown_of(const Scenario& scenario, std::span<const RunRecord> runs) {
-  const std::string left_out = left_out_text(runs);
-  return to_markdown(score_table(runs)) + "\n" + score_legend(runs, scenario.scoring) +
-         (left_out.empty() ? "" : "\n" + left_out + ".\n");
+std::string markdown_of(const SeedRuns& seeds) {
+  const auto& [scenario, runs, failures, complete] = seeds;
+  std::string text;
+  if (const auto settings = settings_of(scenario); !settings.empty()) {
+    text += settings_markdown(settings) + "\n";
+  }
+  if (!complete) text += "**Interrupted: of the finished runs alone.**\n\n";
+  text += to_markdown(score_table(runs)) + "\n" + score_legend(runs, scenario.scoring);
+  if (const std::string left_out = left_out_text(runs); !left_out.empty()) {
+    text += "\n" + left_out + ".\n";
+  }
+  if (failures.empty()) return text;
+  text += "\n## Failures\n\n";
+  for (const RunFailure& each : failures) text += markdown_item(each);
+  return text;
+}
+
+/// The table of scores with a row per failure.
+CsvTable csv_of(const SeedRuns& seeds) {
+  CsvTable table = scores_csv(seeds.runs);
+  for (const RunFailure& each : seeds.failures) {
+    table.add(static_cast<std::int64_t>(each.seed.value_or(0)));
+    table.add(each.estimator).add("failed").add(1.0).end_row();
+  }
+  return table;
 }
 
 }  // namespace
 
-Result<void> write_summary(const Scenario& scenario, std::span<const RunRecord> runs,
-                           const std::filesystem::path& folder) {
-  if (runs.empty()) return {};
+Result<void> write_summary(const SeedRuns& seeds, const std::filesystem::path& folder) {
+  if (seeds.runs.empty()) return {};
   return write_report({.name = "summary",
-                       .markdown = markdown_of(scenario, runs),
-                       .csv = scores_csv(runs),
-                       .json = summary_json(scenario, runs),
-                       .latex = to_latex(score_table(runs))},
+                       .markdown = markdown_of(seeds),
+                       .csv = csv_of(seeds),
+                       .json = summary_json(seeds),
+                       .latex = to_latex(score_table(seeds.runs))},
                       folder);
 }
 

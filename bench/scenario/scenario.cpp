@@ -239,6 +239,16 @@ std::optional<std::string> route_warning(const Scenario& scenario) {
   return "the route is as before; " + route_hint(kind);
 }
 
+std::vector<std::string> settings_of(const Scenario& scenario) {
+  std::vector<std::string> settings = scenario.overrides;
+  std::erase_if(settings, [](const std::string& each) { return is_run_setting(each); });
+  return settings;
+}
+
+std::string settings_markdown(const std::vector<std::string>& settings) {
+  return fmt::format("Set on top of the scenario: `{}`.\n", fmt::join(settings, "`, `"));
+}
+
 Result<Scenario> load_scenario(const fs::path& file, std::span<const std::string> overrides,
                                const fs::path& folder) {
   Scenario scenario;

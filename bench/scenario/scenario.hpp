@@ -84,6 +84,12 @@ Result<void> check_simulation(const Scenario& scenario, std::uint64_t seed);
 /// it did before.
 std::optional<std::string> route_warning(const Scenario& scenario);
 
+/// What was set on top of the file, but who runs.
+std::vector<std::string> settings_of(const Scenario& scenario);
+
+/// The line that states them at the head of a summary.
+std::string settings_markdown(const std::vector<std::string>& settings);
+
 /// Reads a scenario and applies `overrides` ("key=value") on top of it. Checks everything that can
 /// be checked without simulating; errors are one line that names file, line, key and expectation.
 /// `folder` is where a bare name of `base` is looked up that is not beside the file.

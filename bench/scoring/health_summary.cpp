@@ -59,9 +59,15 @@ std::vector<std::string> health_lines(const RunRecord& run) {
     const auto health = scores.find("health");
     if (health == scores.end()) continue;
     const std::string worst = value_in(*health, "worst", "");
-    if (worst == name_of(HealthState::kHealthy) || worst == kNotJudged) continue;
-    lines.push_back(
-        fmt::format("{} seed {}: {}", name, run.seed, value_in(*health, "text", worst)));
+    if (worst == kNotJudged) continue;
+    std::vector<std::string> parts;
+    if (worst != name_of(HealthState::kHealthy)) parts.push_back(value_in(*health, "text", worst));
+    const double unnoticed = value_in(*health, "healthy_while_wrong_s", 0.0);
+    if (unnoticed >= kLeastUnnoticed) {
+      parts.push_back(fmt::format("healthy for {:.1f} s while wrong", unnoticed));
+    }
+    if (parts.empty()) continue;
+    lines.push_back(fmt::format("{} seed {}: {}", name, run.seed, fmt::join(parts, "; ")));
   }
   return lines;
 }

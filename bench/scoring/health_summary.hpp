@@ -19,8 +19,13 @@ Json health_json(const HealthSummary& summary);
 /// or not judged.
 std::string text_of(const HealthSummary& summary);
 
-/// "lio seed 1: degraded for 3.2 s (no leg odometry 3.2 s)" for each estimator of a run that was
-/// not healthy all along; none for records without health, or not judged.
+/// Least time that an estimate is healthy while its error exceeds the limit of a success, for it to
+/// be said [s].
+inline constexpr double kLeastUnnoticed = 1.0;
+
+/// "lio seed 1: degraded for 3.2 s (no leg odometry 3.2 s); healthy for 90.1 s while wrong" for
+/// each estimator of a run that was not healthy all along, or was so while wrong; none for records
+/// without health, or not judged.
 std::vector<std::string> health_lines(const RunRecord& run);
 
 /// A row per health row: stamp_s, state, reasons, position_sigma_m.

@@ -32,4 +32,15 @@ HealthSummary health_summary(const std::vector<HealthRow>& rows) {
   return summary;
 }
 
+double healthy_after(const std::vector<HealthRow>& rows, Time begin) {
+  double seconds = 0.0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const Time from = std::max(rows[i - 1].stamp, begin);
+    if (rows[i - 1].state == HealthState::kHealthy && rows[i].stamp > from) {
+      seconds += to_seconds(rows[i].stamp - from);
+    }
+  }
+  return seconds;
+}
+
 }  // namespace aims

@@ -26,4 +26,7 @@ void add_health(const HealthRow& row, HealthSummary& summary);
 /// The summary of all rows.
 HealthSummary health_summary(const std::vector<HealthRow>& rows);
 
+/// Time [s] after that instant in which an estimator called itself healthy.
+double healthy_after(const std::vector<HealthRow>& rows, Time begin);
+
 }  // namespace aims

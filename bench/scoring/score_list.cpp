@@ -102,7 +102,7 @@ constexpr std::array kScores = {
           [](const Scores& s) { return Json(s.success_1_percent); }},
     Score{"diverged_reason", "", "", 0, kOpen, 0,
           [](const Scores& s) { return Json(name_of(s.failure_reason)); }},
-    Score{"diverged_at_s", "", "s", 1, kOpen, 0,
+    Score{"diverged_at_s", "", "s", 1, kLarge, 0,
           [](const Scores& s) { return s.diverged_at ? Json(to_seconds(*s.diverged_at)) : Json(); }},
     Score{"coverage", "tracked", "-", 2, kLarge, 0, [](const Scores& s) { return Json(s.coverage); }},
     Score{"m_list_percent", "M_list", "%", 3, kSmall, 0.02, m_list_json},
@@ -130,7 +130,7 @@ constexpr std::array kScores = {
     Score{"ate_se3_m", "ATE SE(3)", "m", 3, kSmall, 0,
           [](const Scores& s) { return json_of(s.ate_se3_m); }},
     Score{"ate_se3_degenerate", "", "", 0, kOpen, 0,
-          [](const Scores& s) { return Json(s.se3_spread != PositionSpread::kFull); }},
+          [](const Scores& s) { return Json(s.ate_se3_m.has_value() && s.se3_spread != PositionSpread::kFull); }},
     Score{"ate_sim3_m", "ATE Sim(3)", "m", 3, kSmall, 0,
           [](const Scores& s) { return json_of(s.ate_sim3_m); }, has_sim3},
     Score{"sim3_scale", "", "-", 4, kOpen, 0,
@@ -159,6 +159,12 @@ const Score* listed(std::string_view key) {
   });
 }
 
+/// Of numbers that the list lacks or has as parts of an object.
+bool is_larger_better(std::string_view key) {
+  return key == "poses" || key == "health.healthy_s" ||
+         (key.starts_with("weak_axis.") && key.ends_with(".efficiency"));
+}
+
 /// The entry for a number of that key.
 Score number(const char* key) {
   Score score = score_at(key);
@@ -173,6 +179,7 @@ std::span<const Score> score_list() { return kScores; }
 const Score& score_at(std::string_view key) { return *listed(key); }
 
 Better better_of(std::string_view key) {
+  if (is_larger_better(key)) return Better::kLarger;
   const auto* const score = listed(key);
   return score == kScores.end() ? Better::kSmaller : score->better;
 }

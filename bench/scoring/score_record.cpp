@@ -47,8 +47,13 @@ Json estimator_json(const EstimatorOutcome& outcome) {
   json["time_per_scan_ms"] = time_json(outcome.scan_times.wall_ms);
   json["cpu_per_scan_ms"] = time_json(outcome.scan_times.cpu_ms);
   json["poses"] = outcome.scores.poses;
+  json["poses_invalid"] = outcome.scores.poses_invalid;
   json["counts"] = outcome.result.counts;
   json["health"] = health_json(health_summary(outcome.result.health));
+  if (outcome.scores.failure_reason == FailureReason::kErrorLimit && outcome.scores.diverged_at) {
+    json["health"]["healthy_while_wrong_s"] =
+        healthy_after(outcome.result.health, *outcome.scores.diverged_at);
+  }
   if (outcome.optimized) {
     json["optimized"] = scores_json(*outcome.optimized);
     json["optimized"]["poses"] = outcome.optimized->poses;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "bench/metrics/statistics.hpp"
@@ -27,23 +28,26 @@ std::vector<double> values_of(std::span<const RunRecord> runs, const std::string
   return values;
 }
 
-std::optional<double> largest(const std::vector<double>& values) {
-  if (values.empty()) return std::nullopt;
-  return *std::max_element(values.begin(), values.end());
-}
-
-std::optional<double> smallest(const std::vector<double>& values) {
-  if (values.empty()) return std::nullopt;
-  return *std::min_element(values.begin(), values.end());
-}
-
 }  // namespace
+
+std::optional<double> worst_of(const std::vector<double>& values, const std::string& key) {
+  if (values.empty()) return std::nullopt;
+  const auto [smallest, largest] = std::ranges::minmax(values);
+  return better_of(key) == Better::kLarger ? smallest : largest;
+}
+
+double smallest_change(const std::string& key, double before) {
+  double floor = 0.0;
+  for (const Score& each : headline_scores()) {
+    if (each.key == key) floor = each.floor;
+  }
+  return std::max(floor, kMinChange * std::abs(before));
+}
 
 ScoreStatistics statistics_of(std::span<const RunRecord> runs, const std::string& estimator,
                               const std::string& key) {
   const std::vector<double> values = values_of(runs, estimator, key);
-  const bool more_is_better = better_of(key) == Better::kLarger;
-  return {median(values), more_is_better ? smallest(values) : largest(values), values.size()};
+  return {median(values), worst_of(values, key), values.size()};
 }
 
 Interval median_interval(std::span<const RunRecord> runs, const std::string& estimator,
@@ -99,21 +103,37 @@ std::optional<bool> succeeds(const RunRecord& run, const std::string& estimator,
   return value ? std::optional(*value == 1.0) : std::nullopt;
 }
 
+void SuccessDifferences::add(std::uint64_t seed, bool first, bool second) {
+  ++counts_.sequences;
+  counts_.only_first += first && !second;
+  counts_.only_second += !first && second;
+  surplus_[seed] += static_cast<int>(first) - static_cast<int>(second);
+}
+
+SuccessTest SuccessDifferences::test() const {
+  SuccessTest test = counts_;
+  test.seeds = surplus_.size();
+  const auto count = [&](auto&& is_counted) {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        surplus_, [&](const auto& of_seed) { return is_counted(of_seed.second); }));
+  };
+  test.by_seed = mcnemar_test(count([](int surplus) { return surplus > 0; }),
+                              count([](int surplus) { return surplus < 0; }));
+  return test;
+}
+
 McNemarTest success_test(const EstimatorRuns& first, const EstimatorRuns& second,
                          const std::string& key) {
-  std::size_t only_first = 0;
-  std::size_t only_second = 0;
+  SuccessDifferences differences;
   for (const RunRecord& a : first.runs) {
     for (const RunRecord& b : second.runs) {
       if (a.seed != b.seed) continue;
       const auto one = succeeds(a, first.estimator, key);
       const auto other = succeeds(b, second.estimator, key);
-      if (!one || !other) continue;
-      only_first += *one && !*other;
-      only_second += !*one && *other;
+      if (one && other) differences.add(a.seed, *one, *other);
     }
   }
-  return mcnemar_test(only_first, only_second);
+  return differences.test().by_seed;
 }
 
 std::vector<double> ScorePairs::differences() const {
@@ -145,7 +165,7 @@ PairedStatistics statistics_of(const ScorePairs& pairs) {
   if (statistics.count == 0) return statistics;
   statistics.reference_median = median(pairs.reference);
   statistics.median = median(pairs.value);
-  statistics.worst = largest(pairs.value);
+  statistics.worst = *std::ranges::max_element(pairs.value);
   if (*statistics.reference_median > 0.0) {
     statistics.ratio = *statistics.median / *statistics.reference_median;
   }

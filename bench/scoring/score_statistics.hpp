@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,6 +25,14 @@ struct ScoreStatistics {
 
 ScoreStatistics statistics_of(std::span<const RunRecord> runs, const std::string& estimator,
                               const std::string& key);
+
+/// The largest value; the smallest of a score of which more is better.
+std::optional<double> worst_of(const std::vector<double>& values, const std::string& key);
+
+/// A change of at most this is too small to matter, whatever its significance: the larger of 5 % of
+/// the value before and of what is of no interest of a headline score, e.g. 1 cm.
+inline constexpr double kMinChange = 0.05;
+double smallest_change(const std::string& key, double before);
 
 /// 95 % bootstrap interval of the median of a score over the runs that have it; coarse below about
 /// ten runs.
@@ -71,7 +81,30 @@ struct EstimatorRuns {
 ScorePairs paired(const EstimatorRuns& reference, const EstimatorRuns& other,
                   const std::string& key);
 
-/// McNemar's test of the successes of two on the same seeds.
+/// Where two estimators differ in success.
+struct SuccessTest {
+  std::size_t sequences = 0;    ///< on which both have one
+  std::size_t seeds = 0;        ///< of these sequences
+  std::size_t only_first = 0;   ///< sequences on which the first alone succeeds
+  std::size_t only_second = 0;  ///< likewise
+  /// Sign test over seeds (Dixon and Mood 1946): on how many the first, or the second, succeeds on
+  /// more sequences. The sequences of a seed are not independent, since its sensors are the same
+  /// in each scenario. With one sequence per seed it is McNemar's exact test.
+  McNemarTest by_seed;
+};
+
+/// Collects the successes of two estimators on the same sequences.
+class SuccessDifferences {
+ public:
+  void add(std::uint64_t seed, bool first, bool second);
+  SuccessTest test() const;
+
+ private:
+  SuccessTest counts_;
+  std::map<std::uint64_t, int> surplus_;  ///< per seed: successes of the first minus the second's
+};
+
+/// Of two estimators on the same seeds of one scenario.
 McNemarTest success_test(const EstimatorRuns& first, const EstimatorRuns& second,
                          const std::string& key = kSuccessKey);
 

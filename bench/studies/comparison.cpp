@@ -16,8 +16,6 @@
 namespace aims {
 namespace {
 
-constexpr double kMinChange = 0.05;  ///< fraction of the value before
-
 constexpr double kSuccessLevel = 0.05;  ///< of McNemar's test
 
 ChangeVerdict verdict_of(const std::vector<double>& differences, const PairedTest& test,
@@ -45,7 +43,7 @@ ScoreChange change_of(const ScorePairs& pairs, const Score& score) {
   const std::vector<double> differences = pairs.differences();
   ScoreChange change = means_of(pairs, score.key);
   change.worst_after = *std::ranges::max_element(pairs.value);
-  change.floor = std::max(score.floor, kMinChange * std::abs(change.before));
+  change.floor = smallest_change(score.key, change.before);
   change.test = paired_test(differences);
   change.verdict = verdict_of(differences, change.test, change.floor);
   change.false_alarm = false_alarm_rate(differences, change.floor);

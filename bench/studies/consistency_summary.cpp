@@ -37,9 +37,7 @@ std::string markdown_of(const ConsistencyStudy& study, const Suite& suite) {
   text +=
       "\n## At the end\n\nRoot mean squares over seeds [m].\n\n" + to_markdown(end_table(study));
   for (const std::string& line : left_out_lines(suite)) text += fmt::format("\n- {}\n", line);
-  for (const SuiteFailure& each : suite.failures) {
-    text += fmt::format("\n- failed: {}\n", text_of(each));
-  }
+  for (const RunFailure& each : suite.failures) text += markdown_item(each);
   return text;
 }
 
@@ -180,7 +178,7 @@ TextTable end_table(const ConsistencyStudy& study) {
     if (end.covered.interval.low) inside += " " + interval_text(end.covered.interval, "{:.2f}");
     table.rows.push_back(
         {each.scenario, each.estimator, fmt::format("{:.3f}", end.error_rms_m),
-         fmt::format("{:.3f}", end.sigma_rms_m), fmt::format("{:.3f}", end.bound_rms_m),
+         number_text(end.sigma_rms_m, "{:.3f}"), fmt::format("{:.3f}", end.bound_rms_m),
          fmt::format("{:.3f}", end.leg_bound_rms_m), number_text(end.nees, "{:.2f}"),
          interval_text(end.bounds, "{:.2f}"), inside});
   }

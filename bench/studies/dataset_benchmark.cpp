@@ -208,7 +208,7 @@ Json benchmark_json(const DatasetBenchmark& benchmark) {
                {"complete", benchmark.suite.complete},
                {"notes", benchmark_notes(benchmark)},
                {"sequences", Json::array()},
-               {"failures", failures_json(benchmark.suite)}};
+               {"failures", failures_json(benchmark.suite.failures)}};
   for (std::size_t i = 0; i < benchmark.sequences.size(); ++i) {
     json["sequences"].push_back(
         sequence_json(benchmark, benchmark.sequences[i], benchmark.suite.cases[i]));

@@ -119,7 +119,7 @@ std::string paper_markdown(const std::vector<PaperExperiment>& experiments, cons
   }
   text += "\n## Agreement with the paper's order\n\n" + to_markdown(order_table(experiments));
   for (const std::string& line : left_out_lines(suite)) text += "\n" + line + "\n";
-  for (const SuiteFailure& each : suite.failures) text += "\nFAILED: " + text_of(each) + "\n";
+  for (const RunFailure& each : suite.failures) text += markdown_item(each);
   return text;
 }
 

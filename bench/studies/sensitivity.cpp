@@ -53,20 +53,23 @@ ScorePairs pooled_pairs(const Suite& suite, const std::string& reference,
 
 void count_successes(const Suite& suite, const std::string& reference, const std::string& other,
                      SensitivityCell& cell) {
+  SuccessDifferences differences;
   for (const SuiteCase& each : suite.cases) {
     for (const RunRecord& run : each.runs) {
       const auto before = succeeds(run, reference);
       const auto after = succeeds(run, other);
-      if (!before || !after) continue;
-      cell.lost += *before && !*after;
-      cell.won += !*before && *after;
+      if (before && after) differences.add(run.seed, *before, *after);
     }
   }
+  const SuccessTest test = differences.test();
+  cell.lost = static_cast<int>(test.only_first);
+  cell.won = static_cast<int>(test.only_second);
+  cell.success_p = test.by_seed.p;
 }
 
 SensitivityCell cell_of(const Suite& suite, const std::string& estimator,
                         const SettingVariant& variant) {
-  SensitivityCell cell{variant.factor, 0, std::nullopt, 0, 0};
+  SensitivityCell cell{.factor = variant.factor};
   if (!variant.spec) return cell;
   const ScorePairs pairs = pooled_pairs(suite, estimator, variant.spec->label);
   cell.pairs = pairs.value.size();

@@ -43,6 +43,7 @@ struct SensitivityCell {
   std::optional<double> ratio;  ///< of the median ATE, variant over estimator
   int lost = 0;                 ///< sequences on which the estimator alone succeeds
   int won = 0;                  ///< sequences on which the variant alone succeeds
+  double success_p = 1.0;       ///< sign test of the successes over seeds
 };
 
 struct SensitivityRow {

@@ -17,18 +17,15 @@ constexpr const char* kSensitivityIntroduction =
     "One setting at a time, its number times a factor, on the same {1} sequences; all else as\n"
     "before. Ratios are of the median ATE yaw ({2}), above 1 where the change makes it worse; in\n"
     "brackets the sequences on which `{0}` alone succeeds (-) and the variant alone (+). A dash\n"
-    "stands where the setting does not allow the value. p: McNemar's exact test of the "
-    "successes.\n";
-
-double success_p(const SensitivityCell& cell) {
-  return mcnemar_test(static_cast<std::size_t>(cell.lost), static_cast<std::size_t>(cell.won)).p;
-}
+    "stands where the setting does not allow the value. p: sign test of the "
+    "successes over seeds.\n";
 
 const TableColumns<SensitivityCell>& cell_columns() {
   using Cell = SensitivityCell;
   static const TableColumns<Cell> columns = {
-      {"factor", "", &Cell::factor}, {"ate_ratio", "", &Cell::ratio}, {"pairs", "", &Cell::pairs},
-      {"lost", "", &Cell::lost},     {"won", "", &Cell::won},         {"mcnemar_p", "", success_p}};
+      {"factor", "", &Cell::factor}, {"ate_ratio", "", &Cell::ratio},
+      {"pairs", "", &Cell::pairs},   {"lost", "", &Cell::lost},
+      {"won", "", &Cell::won},       {"success_p", "", &Cell::success_p}};
   return columns;
 }
 
@@ -37,7 +34,7 @@ std::string sensitivity_cell_text(const SensitivityCell& cell) {
   std::string text = fmt::format("{:.3f}", *cell.ratio);
   if (cell.lost > 0) text += fmt::format(" (-{})", cell.lost);
   if (cell.won > 0) text += fmt::format(" (+{})", cell.won);
-  if (cell.lost + cell.won > 0) text += fmt::format(" p {:.2g}", success_p(cell));
+  if (cell.lost + cell.won > 0) text += fmt::format(" p {:.2g}", cell.success_p);
   return text;
 }
 
@@ -48,9 +45,7 @@ std::string sensitivity_markdown(const SettingSensitivity& sensitivity, const Su
   if (!suite.complete) text += "\n**Interrupted: of the finished runs alone.**\n";
   text += "\n" + to_markdown(sensitivity_table(sensitivity));
   for (const std::string& line : left_out_lines(suite)) text += fmt::format("\n- {}", line);
-  for (const SuiteFailure& each : suite.failures) {
-    text += fmt::format("\n- failed: {}", text_of(each));
-  }
+  for (const RunFailure& each : suite.failures) text += markdown_item(each);
   return text;
 }
 

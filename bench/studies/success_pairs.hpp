@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -15,8 +14,7 @@ namespace aims {
 struct SuccessPair {
   std::string first;
   std::string second;
-  std::size_t sequences = 0;
-  std::array<McNemarTest, kSuccessCount> tests;  ///< in the order of `success_scores()`
+  std::array<SuccessTest, kSuccessCount> tests;  ///< in the order of `success_scores()`
 };
 
 /// Every pair of estimators with a common sequence.

@@ -28,6 +28,7 @@ Result<Suite> suite_of(std::vector<ScenarioFile> scenarios) {
     }
     suite.cases.push_back({std::move(*scenario), {}, {}});
   }
+  if (!suite.cases.empty()) suite.settings = settings_of(suite.cases.front().scenario);
   if (!suite.cases.empty()) return suite;
   if (suite.failures.empty()) return failure("no scenario is given");
   return failure(suite.failures.front().message);
@@ -51,13 +52,13 @@ Result<void> add_jobs(const SuiteCase& each, std::vector<std::uint64_t> seeds,
 }
 
 /// Notes a failure, once for all estimators that have the same one.
-void add_failure(const Job& job, const JobResult& result, std::vector<SuiteFailure>& failures) {
-  SuiteFailure failure{job.scenario->name, job.seed, job.estimator.label, result.message};
+void add_failure(const Job& job, const JobResult& result, std::vector<RunFailure>& failures) {
+  RunFailure failure{job.scenario->name, job.seed, job.estimator.label, result.message};
   if (!failures.empty()) {
-    SuiteFailure& last = failures.back();
+    RunFailure& last = failures.back();
     if (last.scenario == failure.scenario && last.seed == failure.seed &&
         last.message == failure.message) {
-      last.estimator.clear();
+      last.estimator += ", " + failure.estimator;
       return;
     }
   }
@@ -72,18 +73,20 @@ void collect_suite(const JobStore& store, Suite& suite) {
     bool ended = true;
     while (next < suite.jobs.size() && suite.jobs[next].scenario->name == each.scenario.name) {
       std::vector<LabelledResult> results;
+      bool whole = true;
       const std::uint64_t seed = suite.jobs[next].seed;
       for (; next < suite.jobs.size() && suite.jobs[next].seed == seed &&
              suite.jobs[next].scenario->name == each.scenario.name;
            ++next) {
         const Job& job = suite.jobs[next];
         auto result = store.find(job.id);
-        ended = ended && result;
+        whole = whole && result;
         if (!result) continue;
         if (result->outcome != JobOutcome::kDone) add_failure(job, *result, suite.failures);
         results.push_back({job.estimator.label, std::move(*result)});
       }
-      RunRecord record = record_of(each.scenario.name, seed, results);
+      ended = ended && whole;
+      RunRecord record = record_of(each.scenario.name, seed, results, whole);
       if (!record.scores["estimators"].empty()) each.runs.push_back(std::move(record));
     }
     suite.complete = suite.complete && ended;
@@ -100,7 +103,11 @@ Result<Suite> run_suite(std::vector<ScenarioFile> scenarios, const SuiteOptions&
       return tl::unexpected(added.error());
     }
   }
-  const auto run = run_jobs({.jobs = suite->jobs, .shard = options.shard}, options.jobs, observer);
+  const auto run = run_jobs({.jobs = suite->jobs,
+                             .shard = options.shard,
+                             .settings = suite->settings,
+                             .force = options.jobs.redo},
+                            options.jobs, observer);
   if (!run) return tl::unexpected(run.error());
   suite->run = *run;
   collect_suite(JobStore(options.jobs.out), *suite);
@@ -124,13 +131,6 @@ Json invalid_json(const Suite& suite) {
     }
   }
   return json;
-}
-
-std::string text_of(const SuiteFailure& failure) {
-  std::string text = failure.scenario;
-  if (failure.seed) text += fmt::format(" seed {}", *failure.seed);
-  if (!failure.estimator.empty()) text += " " + failure.estimator;
-  return text + ": " + failure.message;
 }
 
 }  // namespace aims

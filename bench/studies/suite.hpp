@@ -3,13 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/jobs/job_runner.hpp"
 #include "bench/run/expectations.hpp"
 #include "bench/scenario/catalogue.hpp"
+#include "bench/scoring/run_failure.hpp"
 #include "bench/scoring/score_record.hpp"
 #include "core/error.hpp"
 
@@ -28,21 +28,14 @@ struct SuiteCase {
   std::vector<ExpectationCheck> expectations;  ///< none before all of its jobs have ended
 };
 
-/// A scenario that could not be loaded, or a job that failed.
-struct SuiteFailure {
-  std::string scenario;
-  std::optional<std::uint64_t> seed;
-  std::string estimator;  ///< its label; empty: all
-  std::string message;
-};
-
 /// Scenarios, seeds and estimators, and what their jobs came to.
 struct Suite {
   std::vector<SuiteCase> cases;
   std::vector<Job> jobs;  ///< by case, seed and estimator
-  std::vector<SuiteFailure> failures;
-  bool complete = true;  ///< false when jobs are missing
-  JobRun run;            ///< what this invocation did
+  std::vector<RunFailure> failures;
+  std::vector<std::string> settings;  ///< "key=value" on top of every scenario, but who runs
+  bool complete = true;               ///< false when jobs are missing
+  JobRun run;                         ///< what this invocation did
 };
 
 /// Does the jobs of every scenario, seed and estimator that `options.jobs.out` lacks, and collects
@@ -61,8 +54,5 @@ std::vector<std::string> left_out_lines(const Suite& suite);
 
 /// The invalid runs, each with scenario, seed and reason.
 Json invalid_json(const Suite& suite);
-
-/// "severity_3 seed 1 aims: ...".
-std::string text_of(const SuiteFailure& failure);
 
 }  // namespace aims

@@ -99,7 +99,8 @@ Json suite_json(const Suite& suite) {
                {"complete", suite.complete},
                {"interval", "95 % percentile bootstrap of the median over seeds, 1000 replicates"},
                {"scenarios", Json::array()},
-               {"failures", failures_json(suite)}};
+               {"failures", failures_json(suite.failures)},
+               {"settings", suite.settings}};
   for (const SuiteCase& each : suite.cases) json["scenarios"].push_back(case_json(each));
   return json;
 }
@@ -109,17 +110,6 @@ Json suite_document(const Suite& suite) {
   json["families"] = families_json(family_results(suite));
   json["success_pairs"] = success_pairs_json(success_pairs(suite));
   return json;
-}
-
-Json failures_json(const Suite& suite) {
-  Json failures = Json::array();
-  for (const SuiteFailure& each : suite.failures) {
-    failures.push_back({{"scenario", each.scenario},
-                        {"seed", each.seed ? Json(*each.seed) : Json()},
-                        {"estimator", each.estimator},
-                        {"message", each.message}});
-  }
-  return failures;
 }
 
 bool holds_suite(const std::filesystem::path& folder) {

@@ -23,9 +23,6 @@ Json suite_json(const Suite& suite);
 /// All of suite.json.
 Json suite_document(const Suite& suite);
 
-/// What it holds of the failures: scenario, seed, estimator and message of each.
-Json failures_json(const Suite& suite);
-
 /// True when `folder` holds the suite.json of a suite.
 bool holds_suite(const std::filesystem::path& folder);
 

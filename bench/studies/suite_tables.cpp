@@ -55,14 +55,14 @@ TextTable matrix(const Suite& suite, const Cell& cell) {
 }
 
 /// Scenario, family, level and seed of a row.
-void add_start(const Scenario& scenario, const RunRecord& run, CsvTable& table) {
+void add_start(const Scenario& scenario, std::uint64_t seed, CsvTable& table) {
   table.add(scenario.name).add(scenario.family);
   if (scenario.family.empty()) {
     table.add_empty();
   } else {
     table.add(scenario.level);
   }
-  table.add(static_cast<std::int64_t>(run.seed));
+  table.add(static_cast<std::int64_t>(seed));
 }
 
 std::string expectations_markdown(const Suite& suite) {
@@ -90,14 +90,16 @@ std::string success_markdown(const Suite& suite) {
   const TextTable pairs = success_pairs_table(suite, true);
   if (pairs.rows.empty()) return text;
   return text +
-         "\n### Pairs of estimators\n\nSequences on which one alone is a success; p: McNemar's "
-         "exact test, not corrected for the\nnumber of pairs.\n\n" +
+         "\n### Pairs of estimators\n\nSequences on which one alone is a success; seeds on which "
+         "one "
+         "succeeds on more sequences;\np: sign test over seeds, not corrected for the number of "
+         "pairs.\n\n" +
          to_markdown(pairs);
 }
 
 std::string failures_markdown(const Suite& suite) {
   std::string text;
-  for (const SuiteFailure& each : suite.failures) text += fmt::format("- {}\n", text_of(each));
+  for (const RunFailure& each : suite.failures) text += markdown_item(each);
   for (const std::string& line : left_out_lines(suite)) text += fmt::format("- {}\n", line);
   return text.empty() ? "Everything ran, and every run is valid.\n" : text;
 }
@@ -119,20 +121,21 @@ TextTable success_table(const Suite& suite, const Score& score) {
 
 TextTable success_pairs_table(const Suite& suite, bool all) {
   TextTable table;
-  table.header = {"estimators", "sequences"};
+  table.header = {"estimators", "sequences", "seeds"};
   for (const Score& score : success_scores()) {
     table.header.push_back(fmt::format("{}: first alone", score.title));
-    table.header.emplace_back("second alone");
-    table.header.emplace_back("p");
+    table.header.insert(table.header.end(), {"second alone", "seeds for first, second", "p"});
   }
   for (const SuccessPair& pair : success_pairs(suite)) {
     std::vector<std::string> row = {fmt::format("{}, {}", pair.first, pair.second),
-                                    std::to_string(pair.sequences)};
+                                    std::to_string(pair.tests[0].sequences),
+                                    std::to_string(pair.tests[0].seeds)};
     std::size_t different = 0;
-    for (const McNemarTest& test : pair.tests) {
+    for (const SuccessTest& test : pair.tests) {
       row.push_back(std::to_string(test.only_first));
       row.push_back(std::to_string(test.only_second));
-      row.push_back(fmt::format("{:.3g}", test.p));
+      row.push_back(fmt::format("{}, {}", test.by_seed.only_first, test.by_seed.only_second));
+      row.push_back(fmt::format("{:.3g}", test.by_seed.p));
       different += test.only_first + test.only_second;
     }
     if (all || different > 0) table.rows.push_back(std::move(row));
@@ -159,6 +162,7 @@ TextTable breaks_table(const std::vector<FamilyResult>& families) {
 
 std::string suite_markdown(const Suite& suite, const std::vector<FamilyResult>& families) {
   std::string text = "# Suite\n\n";
+  if (!suite.settings.empty()) text += settings_markdown(suite.settings) + "\n";
   if (!suite.complete) text += "**Interrupted: of the finished runs alone.**\n\n";
   text +=
       "Each cell: median [95 % bootstrap interval of the median] worst, over seeds. Below about\n"
@@ -170,7 +174,8 @@ std::string suite_markdown(const Suite& suite, const std::vector<FamilyResult>& 
   text += success_markdown(suite);
   if (!families.empty()) {
     text += fmt::format(
-        "\n## Breaks at\n\nThe first level, going away from the mildest, where less than half of "
+        "\n## Breakdown level\n\nThe first level, going away from the mildest, where less than "
+        "half of "
         "the runs succeed or the median ATE yaw exceeds both twice that at the mildest and {:g} % "
         "of "
         "the route's length.\n\n{}",
@@ -199,17 +204,22 @@ CsvTable suite_csv(const Suite& suite) {
   for (const SuiteCase& each : suite.cases) {
     for (const RunRecord& run : each.runs) {
       if (!is_valid_run(run)) {
-        add_start(each.scenario, run, table);
+        add_start(each.scenario, run.seed, table);
         table.add("").add("robot.valid").add(0.0).end_row();
         continue;
       }
       for (const std::string& estimator : labels_of(each.scenario.run)) {
         for (const std::string& key : score_keys(run, estimator)) {
           if (is_timing(key)) continue;
-          add_start(each.scenario, run, table);
+          add_start(each.scenario, run.seed, table);
           table.add(estimator).add(key).add(find_score(run, estimator, key)).end_row();
         }
       }
+    }
+    for (const RunFailure& failed : suite.failures) {
+      if (!failed.seed || failed.scenario != each.scenario.name) continue;
+      add_start(each.scenario, *failed.seed, table);
+      table.add(failed.estimator).add("failed").add(1.0).end_row();
     }
   }
   return table;

@@ -19,7 +19,7 @@ TextTable headline_table(const Suite& suite, const Score& score);
 TextTable success_table(const Suite& suite, const Score& score);
 
 /// Pairs of estimators over all their common sequences: on how many each alone is a success, and
-/// McNemar's p. Only pairs that differ; `all` has the others, too.
+/// the p of the sign test over seeds. Only pairs that differ; `all` has the others, too.
 TextTable success_pairs_table(const Suite& suite, bool all);
 
 /// Family x estimator: the levels at which each breaks.

@@ -72,6 +72,10 @@ Result<FileList> link_outputs(const JobStore& store, const Suite& suite,
   return files;
 }
 
+bool has_several_seeds(const Suite& suite) {
+  return suite.jobs.front().seed != suite.jobs.back().seed;
+}
+
 }  // namespace
 
 Result<void> write_run(const JobStore& store, const Suite& suite, const SuiteCase& each,
@@ -102,15 +106,16 @@ Json run_scores(const Scenario& scenario, const RunRecord& record) {
 
 Json run_json(const Suite& suite, const fs::path& out) {
   const SuiteCase& only = suite.cases.front();
-  Json json = {{"schema", "aims.run/1"}, {"scenario", only.scenario.name},
-               {"out", out.string()},    {"complete", suite.complete},
-               {"runs", Json::array()},  {"failures", failures_json(suite)}};
+  Json json = {{"schema", "aims.run/1"},    {"scenario", only.scenario.name},
+               {"out", out.string()},       {"complete", suite.complete},
+               {"runs", Json::array()},     {"failures", failures_json(suite.failures)},
+               {"settings", suite.settings}};
   for (const RunRecord& run : only.runs) json["runs"].push_back(run_scores(only.scenario, run));
   return json;
 }
 
 std::vector<fs::path> run_folders(const Suite& suite, const fs::path& out) {
-  const bool several = suite.jobs.front().seed != suite.jobs.back().seed;
+  const bool several = has_several_seeds(suite);
   std::vector<fs::path> folders;
   for (const RunRecord& run : suite.cases.front().runs) {
     folders.push_back(several ? out / fmt::format("seed-{}", run.seed) : out);
@@ -126,7 +131,8 @@ Result<void> write_runs(const Suite& suite, const fs::path& out) {
     auto written = write_run(store, suite, only, only.runs[i], folders[i]);
     if (!written) return written;
   }
-  return only.runs.size() > 1 ? write_summary(only.scenario, only.runs, out) : Result<void>();
+  if (!has_several_seeds(suite)) return {};
+  return write_summary({only.scenario, only.runs, suite.failures, suite.complete}, out);
 }
 
 fs::path suite_run_folder(const fs::path& out, const std::string& scenario, std::uint64_t seed) {

@@ -4,34 +4,34 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
+
+#include "bench/tuning/effect.hpp"
+#include "bench/tuning/values_text.hpp"
 
 namespace aims {
 namespace {
 
 constexpr std::uint64_t kBootstrapSeed = 1;
+constexpr double kTie = 1e-9;  ///< relative
 
-/// The point with the least objective over the cases; none when none has one.
-std::optional<std::size_t> least(const ResponseTable& table, const Objective& objective,
-                                 std::span<const std::size_t> cases) {
-  std::optional<std::size_t> best;
-  double least_value = 0.0;
-  for (std::size_t k = 0; k < table.points.size(); ++k) {
-    const auto value = objective_at(table, objective, k, cases);
-    if (!value || (best && *value >= least_value)) continue;
-    best = k;
-    least_value = *value;
+/// In widths of the ranges, over all parameters.
+double distance_from_defaults(const ResponseTable& table, std::size_t point) {
+  const std::vector<double>& values = values_at(table, point);
+  double distance = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const ParameterRange& range = table.ranges[i];
+    distance += std::abs(fraction_of(range, values[i]) - fraction_of(range, table.defaults[i]));
   }
-  return best;
+  return distance;
 }
 
 /// Fills the intervals of `best`.
 void add_intervals(const ResponseTable& table, const Objective& objective, BestPoint& best) {
-  const auto seeds = seeds_of(table);
-  const auto cases = [&](std::span<const std::size_t> drawn) {
-    return cases_of_seeds(table, "", seeds, drawn);
-  };
+  const SeedGroups seeds = cases_by_seed(table, cases_of(table, ""));
+  const auto cases = [&](std::span<const std::size_t> drawn) { return joined(seeds, drawn); };
   const auto interval = [&](const ClusterStatistic& statistic) {
     return bootstrap_interval(seeds.size(), statistic, kBootstrapSeed);
   };
@@ -50,31 +50,68 @@ void add_intervals(const ResponseTable& table, const Objective& objective, BestP
     std::sort(sorted.begin(), sorted.end());
     auto found = known.find(sorted);
     if (found == known.end()) {
-      found = known.emplace(sorted, least(table, objective, cases(sorted))).first;
+      found = known.emplace(sorted, least_point(table, objective, cases(sorted))).first;
     }
     return found->second;
   };
   for (std::size_t i = 0; i < table.ranges.size(); ++i) {
+    if (best.without_effect[i]) {
+      best.between.emplace_back();
+      continue;
+    }
     best.between.push_back(
         interval([&](std::span<const std::size_t> drawn) -> std::optional<double> {
           const auto point = best_of(drawn);
-          return point ? std::optional<double>(table.points[*point][i]) : std::nullopt;
+          return point ? std::optional<double>(values_at(table, *point)[i]) : std::nullopt;
         }));
   }
 }
 
 }  // namespace
 
+std::optional<std::size_t> least_point(const ResponseTable& table, const Objective& objective,
+                                       std::span<const std::size_t> cases) {
+  std::vector<std::pair<std::size_t, double>> values;
+  const auto add = [&](std::size_t point) {
+    if (const auto value = objective_at(table, objective, point, cases)) {
+      values.emplace_back(point, *value);
+    }
+  };
+  add(kDefaults);
+  for (std::size_t k = 0; k < table.points.size(); ++k) add(k);
+  if (values.empty()) return std::nullopt;
+  const double least = std::ranges::min(values, {}, &std::pair<std::size_t, double>::second).second;
+  std::erase_if(values,
+                [&](const auto& each) { return each.second > least + kTie * std::abs(least); });
+  return std::ranges::min(
+             values, {},
+             [&](const auto& each) { return distance_from_defaults(table, each.first); })
+      .first;
+}
+
+std::string text_of(const BestPoint& best, const ResponseTable& table) {
+  const std::string values =
+      values_text(table.ranges, table.defaults, best.values, best.without_effect);
+  return best.is_default() ? "no point is better than the defaults: " + values : values;
+}
+
 Result<BestPoint> best_point(const ResponseTable& table, const Objective& objective) {
+  if (all_diverged(table)) {
+    return failure("every run diverged or failed, so that no point is better than another");
+  }
   const auto all = cases_of(table, "");
-  const auto point = least(table, objective, all);
-  if (!point) {
+  const auto point = least_point(table, objective, all);
+  const bool any_point = std::ranges::any_of(table.points, [&, k = std::size_t{0}](auto&) mutable {
+    return objective_at(table, objective, k++, all).has_value();
+  });
+  if (!point || !any_point) {
     return failure(
         fmt::format("none of {} points has a score '{}'", table.points.size(), objective.score));
   }
   BestPoint best;
   best.point = *point;
-  best.values = table.points[*point];
+  best.values = values_at(table, *point);
+  best.without_effect = without_effect(table);
   best.objective = *objective_at(table, objective, *point, all);
   best.defaults = objective_at(table, objective, kDefaults, all);
   best.defaults_diverged = defaults_all_diverged(table);

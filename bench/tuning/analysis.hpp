@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "bench/metrics/bootstrap.hpp"
@@ -11,12 +13,15 @@
 
 namespace aims {
 
-/// The best of the points that were run, with 95 % bootstrap intervals over seeds, each resampled
-/// with all its scenarios. They are empty for one seed, and too narrow for a few.
+/// The best of the points that were run, the defaults included, with 95 % bootstrap intervals over
+/// seeds, each resampled with all its scenarios. They are empty for one seed, and too narrow for a
+/// few.
 struct BestPoint {
-  std::size_t point = 0;
+  std::size_t point = kDefaults;  ///< kDefaults: no other is better
   std::vector<double> values;     ///< of each parameter
-  std::vector<Interval> between;  ///< of each parameter: interval of the best value
+  /// Of each parameter: interval of the best value; empty of one without effect.
+  std::vector<Interval> between;
+  std::vector<bool> without_effect;  ///< of each parameter (effect.hpp)
   double objective = 0.0;
   Interval objective_interval;
   std::optional<double> defaults;  ///< objective of the default setting
@@ -24,9 +29,19 @@ struct BestPoint {
   bool defaults_diverged = false;  ///< every run with the defaults: there is no gain
   Interval gain_interval;
   std::vector<double> distance;  ///< best minus defaults per parameter, in widths of its range
+
+  bool is_default() const { return point == kDefaults; }
 };
 
-/// Error when no point has an objective.
+/// The point with the least objective over the cases; of those alike but for rounding the one next
+/// to the defaults, themselves first. None when none has an objective.
+std::optional<std::size_t> least_point(const ResponseTable& table, const Objective& objective,
+                                       std::span<const std::size_t> cases);
+
+/// The best values beside the defaults, or that no point is better than them.
+std::string text_of(const BestPoint& best, const ResponseTable& table);
+
+/// Error when no point has an objective, or every run diverged.
 Result<BestPoint> best_point(const ResponseTable& table, const Objective& objective);
 
 }  // namespace aims

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include "bench/jobs/job_runner.hpp"
@@ -26,6 +27,9 @@ class BatchProgress {
   std::size_t before_ = 0;  ///< jobs of the batches that ended, those found finished included
   JobRun ended_;            ///< their sums
   double fraction_ = 0.0;
+  /// Simulations and evaluations, of the batches that ended and of the last look at this one.
+  std::array<KindOfWork, 2> work_before_ = {};
+  std::array<KindOfWork, 2> last_ = {};
   Stopwatch stopwatch_;
 };
 

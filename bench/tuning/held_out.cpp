@@ -6,15 +6,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <numeric>
-#include <utility>
 #include <vector>
 
 #include "bench/metrics/paired_test.hpp"
 #include "bench/metrics/proportion.hpp"
 #include "bench/metrics/statistics.hpp"
 #include "bench/scoring/score_list.hpp"
+#include "bench/scoring/score_statistics.hpp"
 
 namespace aims {
 namespace {
@@ -31,9 +29,7 @@ bool may_be_better(const PairedGain& gain) {
 }
 
 /// Of the runs that the point saves where every one with the defaults diverged.
-double p_of_saved(const PairedGain& gain) {
-  return mcnemar_test(0, gain.saved_seeds).p;
-}
+double p_of_saved(const PairedGain& gain) { return mcnemar_test(0, gain.saved_seeds).p; }
 
 /// Of held-out sequences on which every run with the defaults diverged.
 std::string saved_text(const PairedGain& gain) {
@@ -41,17 +37,6 @@ std::string saved_text(const PairedGain& gain) {
   return fmt::format("{}: {} of {} held-out runs diverged instead of all (p = {:.2g}); {}",
                      fewer ? "use them" : "undecided", gain.diverged, gain.sequences,
                      p_of_saved(gain), kNoGain);
-}
-
-/// The table's cases by scenario and seed: the resampling depends on their order, which is another
-/// one in a tuning and in its results read from disk.
-std::vector<std::size_t> sorted_cases(const ResponseTable& table) {
-  std::vector<std::size_t> order(table.cases.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, {}, [&](std::size_t i) {
-    return std::pair(table.cases[i].scenario, table.cases[i].seed);
-  });
-  return order;
 }
 
 /// "ATE yaw" of "ate_yaw_m"; a key that has no title stands for itself.
@@ -62,15 +47,25 @@ std::string title_of(const std::string& key) {
   return key;
 }
 
-/// The cases of each seed: a seed draws the same sensors in each scenario, so its sequences are no
-/// independent ones.
-std::vector<std::vector<std::size_t>> by_seed(const ResponseTable& table,
-                                              std::span<const std::size_t> cases) {
-  std::map<std::uint64_t, std::vector<std::size_t>> seeds;
-  for (const std::size_t i : cases) seeds[table.cases[i].seed].push_back(i);
-  std::vector<std::vector<std::size_t>> groups;
-  for (auto& [seed, group] : seeds) groups.push_back(std::move(group));
-  return groups;
+/// Those on which the defaults and the point have an objective.
+std::vector<std::size_t> cases_of_both(const ResponseTable& table, const Objective& objective,
+                                       std::size_t point) {
+  std::vector<std::size_t> cases = cases_of(table, "");
+  std::erase_if(cases, [&](std::size_t i) {
+    const std::array one = {i};
+    return !objective_at(table, objective, kDefaults, one) ||
+           !objective_at(table, objective, point, one);
+  });
+  return cases;
+}
+
+/// What is needed of a gain besides significance: "1 cm and 5 %".
+std::string small_text(const PairedGain& gain) {
+  const double floor = smallest_change(gain.key, *gain.mean_before);
+  return fmt::format(
+      "the gain is beyond noise, but too small to matter (the mean would have to fall "
+      "by more than {:.2g}{}{})",
+      floor, gain.unit.empty() ? "" : " ", gain.unit);
 }
 
 /// The score as measured and the diverged runs on these cases.
@@ -78,6 +73,8 @@ void measure(const ResponseTable& table, std::size_t point, std::span<const std:
              PairedGain& gain) {
   std::vector<double> before;
   std::vector<double> after;
+  std::vector<double> both_before;
+  std::vector<double> both_after;
   for (const std::size_t i : cases) {
     const RunScore& first = table.default_runs[i];
     const RunScore& second = table.runs[point][i];
@@ -85,9 +82,14 @@ void measure(const ResponseTable& table, std::size_t point, std::span<const std:
     if (second.value) after.push_back(*second.value);
     gain.diverged_before += first.diverged;
     gain.diverged += second.diverged;
+    if (first.diverged || second.diverged || !first.value || !second.value) continue;
+    both_before.push_back(*first.value);
+    both_after.push_back(*second.value);
   }
   gain.median_before = median(before);
   gain.median_after = median(after);
+  gain.mean_before = mean(both_before);
+  gain.mean_after = mean(both_after);
 }
 
 }  // namespace
@@ -98,6 +100,9 @@ std::string measured_text(const PairedGain& gain) {
     const std::string unit = gain.unit.empty() ? "" : " " + gain.unit;
     text = fmt::format("median {} {:.3g} -> {:.3g}{}, ", gain.score, *gain.median_before,
                        *gain.median_after, unit);
+    if (gain.mean_before && gain.mean_after) {
+      text += fmt::format("mean change {:+.2g}{}, ", *gain.mean_after - *gain.mean_before, unit);
+    }
   }
   return text + fmt::format("diverged runs {} -> {} of {}", gain.diverged_before, gain.diverged,
                             gain.sequences);
@@ -109,14 +114,19 @@ bool is_significant(const PairedGain& gain) {
          (*interval.low > 0.0 || *interval.high < 0.0);
 }
 
+bool is_small(const PairedGain& gain) {
+  if (gain.diverged < gain.diverged_before || !gain.mean_before || !gain.mean_after) return false;
+  return *gain.mean_before - *gain.mean_after <= smallest_change(gain.key, *gain.mean_before);
+}
+
 FrontVerdict front_verdict_of(std::span<const PairedGain> gains) {
   bool better = false;
   bool worse = false;
   for (const PairedGain& each : gains) {
-    if (!each.gain || each.all_diverged || each.seeds < kFewestPairs)
-      return FrontVerdict::kTooFew;
+    if (!each.gain || each.all_diverged || each.seeds < kFewestPairs) return FrontVerdict::kTooFew;
     if (!is_significant(each)) continue;
-    (*each.gain > 0.0 ? better : worse) = true;
+    if (*each.gain < 0.0) worse = true;
+    if (*each.gain > 0.0 && !is_small(each)) better = true;
   }
   if (better && worse) return FrontVerdict::kMixed;
   if (better) return FrontVerdict::kBetter;
@@ -140,14 +150,9 @@ const char* name_of(FrontVerdict verdict) {
 }
 
 PairedGain paired_gain(const ResponseTable& table, const Objective& objective, std::size_t point) {
+  const SeedGroups seeds = cases_by_seed(table, cases_of_both(table, objective, point));
   std::vector<std::size_t> cases;
-  for (const std::size_t i : sorted_cases(table)) {
-    const std::array one = {i};
-    const bool both = objective_at(table, objective, kDefaults, one).has_value() &&
-                      objective_at(table, objective, point, one).has_value();
-    if (both) cases.push_back(i);
-  }
-  const auto seeds = by_seed(table, cases);
+  for (const auto& of : seeds) cases.insert(cases.end(), of.begin(), of.end());
   PairedGain result;
   result.sequences = cases.size();
   result.seeds = seeds.size();
@@ -157,6 +162,7 @@ PairedGain paired_gain(const ResponseTable& table, const Objective& objective, s
   result.all_diverged = all_diverged(table);
   result.defaults_diverged = defaults_all_diverged(table);
   result.score = title_of(objective.score);
+  result.key = objective.score;
   result.unit = unit_of_score(objective.score);
   measure(table, point, cases, result);
   if (result.defaults_diverged) return result;
@@ -175,14 +181,7 @@ PairedGain paired_gain(const ResponseTable& table, const Objective& objective, s
   }
   result.p = paired_test(differences).p;
   result.interval = bootstrap_interval(
-      seeds.size(),
-      [&](std::span<const std::size_t> drawn) {
-        std::vector<std::size_t> some;
-        for (const std::size_t seed : drawn) {
-          some.insert(some.end(), seeds[seed].begin(), seeds[seed].end());
-        }
-        return gain(some);
-      },
+      seeds.size(), [&](std::span<const std::size_t> drawn) { return gain(joined(seeds, drawn)); },
       1);
   return result;
 }
@@ -198,7 +197,7 @@ Verdict verdict_of(const PairedGain& held_out) {
     return *held_out.gain < 0.0 ? Verdict::kDoNotUse : Verdict::kUndecided;
   }
   if (is_significant(held_out)) {
-    return *held_out.gain > 0.0 ? Verdict::kUseThem : Verdict::kDoNotUse;
+    return *held_out.gain > 0.0 && !is_small(held_out) ? Verdict::kUseThem : Verdict::kDoNotUse;
   }
   return may_be_better(held_out) ? Verdict::kUndecided : Verdict::kDoNotUse;
 }
@@ -231,10 +230,14 @@ std::string verdict_text(const PairedGain& held_out) {
       fmt::format("95 % interval {}, p = {:.2g}", changes_text(held_out.interval), held_out.p);
   if (is_significant(held_out)) {
     const bool better = *held_out.gain > 0.0;
+    if (better && is_small(held_out)) {
+      return fmt::format("do not use them: {}: {} ({})", small_text(held_out), on, figures);
+    }
     return fmt::format("{}: {} ({})", better ? "use them" : "do not use them", on, figures);
   }
   if (may_be_better(held_out)) {
-    return fmt::format("undecided: {} ({}); more held-out seeds are needed", on, figures);
+    return fmt::format("undecided: {} ({}); more held-out seeds are needed{}", on, figures,
+                       is_small(held_out) ? ", and the gain so far is too small to matter" : "");
   }
   return fmt::format("do not use them: no significant difference from the defaults: {} ({})", on,
                      figures);

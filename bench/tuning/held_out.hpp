@@ -16,7 +16,7 @@ struct PairedGain {
   std::size_t sequences = 0;    ///< on which both have an objective
   std::size_t seeds = 0;        ///< of those sequences, which are independent from seed to seed
   std::size_t saved_seeds = 0;  ///< of them, those of which no run of the point diverged
-  std::optional<double> gain;  ///< reduction of the objective, as a fraction of the defaults'
+  std::optional<double> gain;   ///< reduction of the objective, as a fraction of the defaults'
   /// 95 %, of the gain: bootstrap over seeds, each with all its sequences and both runs of each;
   /// empty below `kFewestPairs` seeds.
   Interval interval;
@@ -25,22 +25,25 @@ struct PairedGain {
   std::size_t diverged = 0;         ///< runs of the point
   std::size_t diverged_before = 0;  ///< runs with the defaults
   std::string score = {};           ///< what the objective is a statistic of: "ATE yaw"
+  std::string key = {};             ///< of scores.json
   std::string unit = {};
   std::optional<double> median_before;  ///< of the score as measured, with the defaults
   std::optional<double> median_after;   ///< with the values of the point
+  std::optional<double> mean_before;    ///< over the sequences on which neither diverged
+  std::optional<double> mean_after;     ///< over the same
   double p = 1.0;  ///< of the sign-flip test over seeds (bench/metrics/paired_test.hpp)
 };
 
-/// "median ATE yaw 0.384 -> 0.215 m, diverged runs 9 -> 6 of 10": the defaults before, the point
-/// after.
+/// "median ATE yaw 0.384 -> 0.215 m, mean change -0.12 m, diverged runs 9 -> 6 of 10": the defaults
+/// before, the point after.
 std::string measured_text(const PairedGain& gain);
 
 PairedGain paired_gain(const ResponseTable& table, const Objective& objective, std::size_t point);
 
 /// What the held-out sequences say of tuned values.
 enum class Verdict {
-  kUseThem,    ///< better: the interval and the test exclude zero; or, where every run with the
-               ///< defaults diverged, significantly fewer diverge (McNemar's test)
+  kUseThem,  ///< better: the interval and the test exclude zero, and not small; or, where every run
+             ///< with the defaults diverged, significantly fewer diverge (McNemar's test)
   kDoNotUse,   ///< worse, or no difference that is significant
   kUndecided,  ///< no sequences, or too few to conclude
 };
@@ -49,6 +52,10 @@ Verdict verdict_of(const PairedGain& held_out);
 
 /// True when interval and test exclude zero.
 bool is_significant(const PairedGain& gain);
+
+/// That the score falls by too little to matter (`smallest_change`, as in comparisons), and no
+/// fewer runs diverge.
+bool is_small(const PairedGain& gain);
 
 /// Of a point in several objectives: better than the defaults significantly in one and in none
 /// worse; "worse" likewise.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -78,10 +79,14 @@ std::string text_of(const Objective& objective) {
                      objective.divergence_penalty, objective.divergence_penalty);
 }
 
-std::string axis_label(const Objective& objective) {
-  if (objective.relative) return "objective: " + objective.score + " over the defaults'";
+std::string value_label(const Objective& objective) {
+  if (objective.relative) return objective.score + " over the defaults'";
   const std::string unit = unit_of_score(objective.score);
-  return "objective: " + objective.score + (unit.empty() ? "" : " [" + unit + "]");
+  return objective.score + (unit.empty() ? "" : " [" + unit + "]");
+}
+
+std::string axis_label(const Objective& objective) {
+  return "objective: " + value_label(objective);
 }
 
 std::string unit_of_score(const std::string& score) {
@@ -142,16 +147,20 @@ std::vector<std::size_t> cases_of(const ResponseTable& table, const std::string&
   return indices;
 }
 
-std::vector<std::size_t> cases_of_seeds(const ResponseTable& table, const std::string& family,
-                                        std::span<const std::uint64_t> seeds,
-                                        std::span<const std::size_t> drawn) {
-  std::vector<std::size_t> cases;
-  const auto all = cases_of(table, family);
-  for (const std::size_t index : drawn) {
-    for (const std::size_t i : all) {
-      if (table.cases[i].seed == seeds[index]) cases.push_back(i);
-    }
+SeedGroups cases_by_seed(const ResponseTable& table, std::span<const std::size_t> cases) {
+  std::map<std::uint64_t, std::vector<std::size_t>> seeds;
+  for (const std::size_t i : cases) seeds[table.cases[i].seed].push_back(i);
+  SeedGroups groups;
+  for (auto& [seed, group] : seeds) {
+    std::ranges::sort(group, {}, [&](std::size_t i) { return table.cases[i].scenario; });
+    groups.push_back(std::move(group));
   }
+  return groups;
+}
+
+std::vector<std::size_t> joined(const SeedGroups& groups, std::span<const std::size_t> drawn) {
+  std::vector<std::size_t> cases;
+  for (const std::size_t i : drawn) cases.insert(cases.end(), groups[i].begin(), groups[i].end());
   return cases;
 }
 
@@ -226,9 +235,17 @@ std::vector<std::uint64_t> seeds_of(const ResponseTable& table) {
   return seeds;
 }
 
+const std::vector<RunScore>& runs_at(const ResponseTable& table, std::size_t point) {
+  return point == kDefaults ? table.default_runs : table.runs[point];
+}
+
+const std::vector<double>& values_at(const ResponseTable& table, std::size_t point) {
+  return point == kDefaults ? table.defaults : table.points[point];
+}
+
 std::optional<double> objective_at(const ResponseTable& table, const Objective& objective,
                                    std::size_t point, std::span<const std::size_t> cases) {
-  const auto& all = point == kDefaults ? table.default_runs : table.runs[point];
+  const auto& all = runs_at(table, point);
   if (all.empty()) return std::nullopt;
   std::vector<RunScore> runs;
   std::vector<RunScore> reference;

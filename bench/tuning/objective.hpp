@@ -33,6 +33,9 @@ void describe(Fields& fields, Objective& objective);
 /// "median of ate_m over that of the defaults; a diverged run counts 10, and ...".
 std::string text_of(const Objective& objective);
 
+/// "ate_m [m]", or "ate_m over the defaults'": what its values are.
+std::string value_label(const Objective& objective);
+
 /// "objective: ate_m [m]", for axes.
 std::string axis_label(const Objective& objective);
 
@@ -79,10 +82,13 @@ struct ResponseTable {
 /// Indices of the cases of one family, or of all for "".
 std::vector<std::size_t> cases_of(const ResponseTable& table, const std::string& family);
 
-/// Cases of the seeds with the indices `drawn`, each seed with all its scenarios of the family.
-std::vector<std::size_t> cases_of_seeds(const ResponseTable& table, const std::string& family,
-                                        std::span<const std::uint64_t> seeds,
-                                        std::span<const std::size_t> drawn);
+/// Cases of each seed, by seed and scenario. A seed draws the same sensors in each scenario, so
+/// that statistics resample seeds, not their cases.
+using SeedGroups = std::vector<std::vector<std::size_t>>;
+SeedGroups cases_by_seed(const ResponseTable& table, std::span<const std::size_t> cases);
+
+/// The cases of the groups with the indices `drawn`.
+std::vector<std::size_t> joined(const SeedGroups& groups, std::span<const std::size_t> drawn);
 
 /// The families of the table's cases, in the order in which they appear.
 std::vector<std::string> families_of(const ResponseTable& table);
@@ -112,6 +118,8 @@ std::vector<std::uint64_t> seeds_of(const ResponseTable& table);
 /// The objective over the cases with these indices (one may occur several times) of point `point`,
 /// or of the defaults for `kDefaults`.
 inline constexpr std::size_t kDefaults = static_cast<std::size_t>(-1);
+const std::vector<RunScore>& runs_at(const ResponseTable& table, std::size_t point);
+const std::vector<double>& values_at(const ResponseTable& table, std::size_t point);
 std::optional<double> objective_at(const ResponseTable& table, const Objective& objective,
                                    std::size_t point, std::span<const std::size_t> cases);
 

@@ -10,6 +10,7 @@
 
 #include "bench/metrics/statistics.hpp"
 #include "bench/scoring/columns.hpp"
+#include "bench/scoring/score_statistics.hpp"
 #include "bench/tuning/analysis.hpp"
 #include "bench/tuning/response_summary.hpp"
 
@@ -31,10 +32,10 @@ struct PointSummary {
 
 PointSummary summary_of(const ResponseTable& table, const Objective& objective, std::size_t point) {
   const bool of_defaults = point == kDefaults;
-  const std::span<const RunScore> runs = of_defaults ? table.default_runs : table.runs[point];
+  const std::vector<RunScore>& runs = runs_at(table, point);
   PointSummary summary;
   summary.is_default = of_defaults;
-  summary.values = of_defaults ? table.defaults : table.points[point];
+  summary.values = values_at(table, point);
   std::vector<double> scores;
   for (const RunScore& run : runs) {
     if (run.value) scores.push_back(*run.value);
@@ -42,20 +43,23 @@ PointSummary summary_of(const ResponseTable& table, const Objective& objective, 
   }
   summary.objective = objective_at(table, objective, point, cases_of(table, ""));
   summary.median = median(scores);
-  if (!scores.empty()) summary.worst = *std::max_element(scores.begin(), scores.end());
+  summary.worst = worst_of(scores, objective.score);
   summary.runs = runs.size();
   return summary;
 }
 
-/// The default values, where they were run, then the points.
+/// The default values, where they were run, then the other points.
 std::vector<PointSummary> summaries_of(const SweepResponse& response, const Objective& objective) {
   const ResponseTable& table = response.table;
   const auto best = best_point(table, objective);
   std::vector<PointSummary> summaries;
-  if (!table.default_runs.empty()) summaries.push_back(summary_of(table, objective, kDefaults));
+  const auto add = [&](std::size_t point) {
+    summaries.push_back(summary_of(table, objective, point));
+    summaries.back().is_best = best && best->point == point;
+  };
+  if (!table.default_runs.empty()) add(kDefaults);
   for (std::size_t k = 0; k < table.points.size(); ++k) {
-    summaries.push_back(summary_of(table, objective, k));
-    summaries.back().is_best = best && best->point == k;
+    if (table.default_runs.empty() || table.points[k] != table.defaults) add(k);
   }
   for (PointSummary& each : summaries) {
     each.name = response.estimator + (each.is_default ? " (default)" : "");
@@ -84,7 +88,7 @@ TableColumns<PointSummary> point_columns(const std::vector<ParameterRange>& rang
          return figure_text(point.objective) + (point.is_best ? " best" : "");
        }},
       {"score_median", "score (" + score + "), median", &Point::median, "{:.3g}"},
-      {"score_worst", "largest", &Point::worst, "{:.3g}"},
+      {"score_worst", "worst", &Point::worst, "{:.3g}"},
       {"diverged", "", &Point::diverged},
       {"runs", "", &Point::runs},
       {"", "diverged",

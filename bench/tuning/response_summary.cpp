@@ -7,21 +7,29 @@
 #include <cmath>
 
 #include "bench/metrics/statistics.hpp"
-#include "bench/tuning/values_text.hpp"
+#include "bench/tuning/effect.hpp"
 
 namespace aims {
 namespace {
 
 constexpr double kInteracts = 0.05;
 
+/// 100 times the fraction, of less than ten with a digit behind the point; never "-0".
+std::string hundredfold(double fraction) {
+  const bool coarse = std::abs(fraction) >= 0.0995;
+  const double rounded =
+      coarse ? std::round(100.0 * fraction) : std::round(1000.0 * fraction) / 10.0;
+  return fmt::format("{:.{}f}", rounded + 0.0, coarse || rounded == 0.0 ? 0 : 1);
+}
+
 std::string percent_text(const std::optional<double>& fraction) {
-  return fraction ? fmt::format("{:.0f} %", 100.0 * *fraction) : "-";
+  return fraction ? hundredfold(*fraction) + " %" : "-";
 }
 
 std::string percent_text(const std::optional<double>& fraction, const Interval& interval) {
   std::string text = percent_text(fraction);
   if (!interval.low || !interval.high) return text;
-  return text + fmt::format(" [{:.0f}, {:.0f}]", 100.0 * *interval.low, 100.0 * *interval.high);
+  return text + fmt::format(" [{}, {}]", hundredfold(*interval.low), hundredfold(*interval.high));
 }
 
 std::vector<double> scores_of(std::span<const RunScore> runs, std::span<const std::size_t> cases) {
@@ -42,12 +50,11 @@ std::string diverged_text(std::span<const RunScore> runs, std::span<const std::s
 std::vector<std::string> gain_row(const ResponseTable& table, const Objective& objective,
                                   std::size_t point, const std::string& name,
                                   const std::vector<std::size_t>& cases) {
+  const SeedGroups seeds = cases_by_seed(table, cases);
   const auto interval = bootstrap_interval(
-      cases.size(),
+      seeds.size(),
       [&](std::span<const std::size_t> drawn) {
-        std::vector<std::size_t> some;
-        for (const std::size_t i : drawn) some.push_back(cases[i]);
-        return objective_at(table, objective, point, some);
+        return objective_at(table, objective, point, joined(seeds, drawn));
       },
       1);
   return {name,
@@ -84,12 +91,40 @@ std::string source_text(const Sensitivity& sensitivity) {
       "at points left out is {}.\n",
       surrogate.terms(), sensitivity.points, percent_text(std::max(0.0, surrogate.explained())), of,
       error);
-  return sensitivity.is_resolved()
+  return sensitivity.has_indices()
              ? "\nIndices by a fit. " + fit
              : fmt::format(
                    "\n**Indices are not resolved**, which takes a cross-validated R² of at "
                    "least {:.0f} %. {}",
                    100.0 * kLeastExplained, fit);
+}
+
+/// The best value with its interval; none of a parameter without effect.
+std::string best_cell(const BestPoint& best, const Sensitivity* sensitivity, std::size_t i) {
+  if (best.without_effect[i]) return "no effect measured";
+  const bool negligible = sensitivity != nullptr && sensitivity->is_negligible(i);
+  return negligible ? figure_text(best.values[i]) + " (negligible effect)"
+                    : figure_text(best.values[i], best.between[i]);
+}
+
+/// Objective and score of the best point, and of the defaults where they are not the best.
+std::string best_markdown(const ResponseTable& table, const Objective& objective,
+                          const BestPoint& best) {
+  const std::string figures =
+      fmt::format("an objective of {} and a score (median {}) of {}",
+                  figure_text(best.objective, best.objective_interval), objective.score,
+                  figure_text(median(scores_of(runs_at(table, best.point), cases_of(table, "")))));
+  if (best.is_default()) return fmt::format("The defaults have {}.\n", figures);
+  return fmt::format("The best of {} points has {}; the defaults have an objective of {}.\n",
+                     table.points.size(), figures, figure_text(best.defaults));
+}
+
+/// What the best point gains over the defaults.
+std::string gain_markdown(const BestPoint& best) {
+  if (best.defaults_diverged) return fmt::format("No gain: {}.\n", kNoGain);
+  if (best.is_default() || !best.gain) return "";
+  return fmt::format("Reduction by {} on these sequences, among which the best was chosen.\n",
+                     percent_text(best.gain, best.gain_interval));
 }
 
 /// The source of the indices, negligible parameters and interactions.
@@ -135,10 +170,10 @@ TextTable parameter_table(const ResponseTable& table, const BestPoint& best,
   }
   for (std::size_t i = 0; i < table.ranges.size(); ++i) {
     const ParameterRange& range = table.ranges[i];
-    text.rows.push_back(
-        {range.key, fmt::format("{} to {}{}", range.low, range.high, range.log ? ", log" : ""),
-         fmt::format("{}", table.defaults[i]), figure_text(best.values[i], best.between[i]),
-         fmt::format("{:+.2f}", best.distance[i])});
+    text.rows.push_back({range.key,
+                         fmt::format("{} to {}{}", range.low, range.high, range.log ? ", log" : ""),
+                         fmt::format("{}", table.defaults[i]), best_cell(best, sensitivity, i),
+                         best.without_effect[i] ? "-" : fmt::format("{:+.2f}", best.distance[i])});
     if (sensitivity == nullptr) continue;
     if (!sensitivity->is_resolved()) {
       text.rows.back().insert(text.rows.back().end(), {"not resolved", "not resolved"});
@@ -183,20 +218,9 @@ std::string response_markdown(const ResponseTable& table, const Objective& objec
   }
   const auto sensitivity = table.ranges.size() > 1 ? sensitivity_of(table, objective)
                                                    : Result<Sensitivity>(failure(kOneParameter));
-  std::string text = fmt::format(
-      "Objective: {}.\nThe best of {} points has an objective of {} and a score (median {}) of {}; "
-      "the defaults have an objective of {}.\n",
-      text_of(objective), table.points.size(),
-      figure_text(best->objective, best->objective_interval), objective.score,
-      figure_text(median(scores_of(table.runs[best->point], cases_of(table, "")))),
-      figure_text(best->defaults));
-  text +=
-      fmt::format("Best values: {}.\n", values_text(table.ranges, table.defaults, best->values));
-  if (best->defaults_diverged) text += fmt::format("No gain: {}.\n", kNoGain);
-  if (best->gain) {
-    text += fmt::format("Reduction by {} on these sequences, among which the best was chosen.\n",
-                        percent_text(best->gain, best->gain_interval));
-  }
+  std::string text =
+      fmt::format("Objective: {}.\n{}", text_of(objective), best_markdown(table, objective, *best));
+  text += fmt::format("Best values: {}.\n{}", text_of(*best, table), gain_markdown(*best));
   for (const std::string& line : left_out_lines(table)) text += fmt::format("- {}\n", line);
   for (const std::string& line : failed_lines(table)) text += fmt::format("- {}\n", line);
   const std::size_t seeds = seeds_of(table).size();
@@ -205,6 +229,7 @@ std::string response_markdown(const ResponseTable& table, const Objective& objec
                                   seeds, seeds < 10 ? ", too narrow for so few" : "");
   text += '\n';
   text += to_markdown(parameter_table(table, *best, sensitivity ? &*sensitivity : nullptr));
+  text += "\n" + text_of(effect_of(table, objective)) + "\n";
   text += sensitivity ? sensitivity_markdown(table, *sensitivity)
                       : "\nNo indices: " + sensitivity.error().message + ".\n";
   return text;

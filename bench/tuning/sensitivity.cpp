@@ -25,7 +25,7 @@ Response response_over(const ResponseTable& table, const Objective& objective,
   std::vector<Eigen::VectorXd> rows;
   for (std::size_t k = 0; k < table.points.size(); ++k) {
     const auto value = objective_at(table, objective, k, cases);
-    if (!value) continue;
+    if (!value || !is_inside(table, table.points[k])) continue;
     values.push_back(*value);
     rows.push_back(fractions_of(table, table.points[k]));
   }
@@ -46,7 +46,7 @@ Response response_over(const ResponseTable& table, const Objective& objective,
 /// Of the total indices of a grid, over seeds drawn again.
 std::vector<Interval> intervals_over_seeds(const ResponseTable& table, const Objective& objective,
                                            const std::string& family) {
-  const auto seeds = seeds_of(table);
+  const SeedGroups seeds = cases_by_seed(table, cases_of(table, family));
   std::map<std::vector<std::size_t>, std::optional<SobolIndices>> known;
   std::vector<Interval> intervals;
   for (std::size_t i = 0; i < table.ranges.size(); ++i) {
@@ -55,8 +55,7 @@ std::vector<Interval> intervals_over_seeds(const ResponseTable& table, const Obj
       std::sort(sorted.begin(), sorted.end());
       auto found = known.find(sorted);
       if (found == known.end()) {
-        const auto cases = cases_of_seeds(table, family, seeds, sorted);
-        const Response some = response_over(table, objective, cases);
+        const Response some = response_over(table, objective, joined(seeds, sorted));
         found = known.emplace(std::move(sorted), grid_indices(some.points, some.values)).first;
       }
       return found->second ? std::optional<double>(found->second->total[i]) : std::nullopt;
@@ -81,6 +80,7 @@ Result<Sensitivity> sensitivity_of(const ResponseTable& table, const Objective& 
   Sensitivity sensitivity;
   sensitivity.points = static_cast<std::size_t>(response.values.size());
   sensitivity.logarithmic = response.logarithmic;
+  sensitivity.effect = effect_of(table, objective, family);
   auto surrogate = Surrogate::fit(response.points, response.values);
   auto of_grid = grid_indices(response.points, response.values);
   auto of_part = of_grid ? std::nullopt : fractional_indices(response.points, response.values);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/tuning/effect.hpp"
 #include "bench/tuning/objective.hpp"
 #include "bench/tuning/sobol_indices.hpp"
 #include "bench/tuning/surrogate.hpp"
@@ -32,11 +33,14 @@ struct Sensitivity {
   std::optional<FractionalIndices> of_part;
   SobolIndices indices;
   std::optional<Surrogate> surrogate;  ///< none through too few points
+  Effect effect;                       ///< of all parameters together
 
   /// True when the surrogate's cross-validated R^2 is at least `kLeastExplained`.
   bool is_fitted() const { return surrogate && surrogate->explained() >= kLeastExplained; }
-  /// True when the indices mean something: of a grid, a part of one, or a surrogate that fits.
-  bool is_resolved() const { return of_grid || of_part || is_fitted(); }
+  /// Of a grid, a part of one, or a surrogate that fits.
+  bool has_indices() const { return of_grid || of_part || is_fitted(); }
+  /// True when they mean something: there is an effect beyond the scatter of seeds.
+  bool is_resolved() const { return has_indices() && effect.is_resolved(); }
   /// True of a parameter whose total index is below 5 % with its entire interval; never where the
   /// indices are not resolved.
   bool is_negligible(std::size_t parameter) const;

@@ -63,18 +63,18 @@ std::size_t levels(const ResponseTable& table, std::size_t i) {
 
 SlicePoint measured_point(const ResponseTable& table, const Objective& objective, std::size_t point,
                           const Slice& slice) {
-  const auto seeds = seeds_of(table);
-  const auto& values = point == kDefaults ? table.defaults : table.points[point];
+  const auto& values = values_at(table, point);
   SlicePoint result;
   result.x = values[slice.first];
   if (slice.second) result.y = values[*slice.second];
-  result.objective = objective_at(table, objective, point, cases_of(table, slice.family));
+  const auto cases = cases_of(table, slice.family);
+  result.objective = objective_at(table, objective, point, cases);
   if (slice.second) return result;
+  const SeedGroups seeds = cases_by_seed(table, cases);
   result.interval = bootstrap_interval(
       seeds.size(),
       [&](std::span<const std::size_t> drawn) {
-        return objective_at(table, objective, point,
-                            cases_of_seeds(table, slice.family, seeds, drawn));
+        return objective_at(table, objective, point, joined(seeds, drawn));
       },
       kIntervalSeed);
   return result;

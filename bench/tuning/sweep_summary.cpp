@@ -67,6 +67,16 @@ void add_default_point(ResponseTable& table) {
   table.runs.push_back(table.default_runs);
 }
 
+/// Adds the estimators that a plan gives a label, with their settings in order.
+void add_labelled(const std::vector<std::string>& texts, std::vector<EstimatorSpec>& labelled) {
+  for (const std::string& text : texts) {
+    auto spec = parse_estimator_spec(text);
+    if (!spec || spec->label == label_of(unlabelled_text(*spec))) continue;
+    std::ranges::sort(spec->settings);
+    labelled.push_back(std::move(*spec));
+  }
+}
+
 Result<SweepResponse> response_of(const Collected& collected, const VariedParameters& varied,
                                   const Cases& sequences) {
   SweepResponse response;
@@ -108,6 +118,7 @@ Result<VariedParameters> varied_in(const MergedSweep& sweep) {
                                      [&](const auto& each) { return each.key == range.key; });
       if (!known) varied.ranges.push_back(std::move(range));
     }
+    add_labelled(plan.estimators, varied.labelled);
     if (auto added = add_python_estimators(plan.estimators, varied.base); !added) {
       return tl::unexpected(added.error());
     }
@@ -152,6 +163,11 @@ std::optional<PlacedJob> placed_job(const MergedJob& job, const VariedParameters
   }
   if (!placed.values.empty() && placed.values.size() != varied.ranges.size()) return std::nullopt;
   placed.estimator.settings.assign(settings.begin(), settings.end());
+  for (const EstimatorSpec& each : varied.labelled) {
+    if (unlabelled_text(each) == unlabelled_text(placed.estimator)) {
+      placed.estimator.label = each.label;
+    }
+  }
   const std::string family = value_in(job.file, "family", "");
   placed.on = {job.listed.scenario, family.empty() ? job.listed.scenario : family,
                value_in(job.file, "seed", std::uint64_t{0})};

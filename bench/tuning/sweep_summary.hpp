@@ -18,7 +18,8 @@ namespace aims {
 /// The ranges of a sweep's plans, each key once, and the settings of the estimators besides.
 struct VariedParameters {
   std::vector<ParameterRange> ranges;
-  EstimatorConfigs base;  ///< without the varied values
+  EstimatorConfigs base;                ///< without the varied values
+  std::vector<EstimatorSpec> labelled;  ///< of the plans, those that were given a label
   /// What scenarios have themselves of varied keys that are not the estimator's; that of the first
   /// one where they differ.
   std::map<std::string, double> scenario_values;

@@ -9,7 +9,9 @@
 #include <string>
 #include <utility>
 
+#include "bench/tuning/analysis.hpp"
 #include "bench/tuning/batch_progress.hpp"
+#include "bench/tuning/effect.hpp"
 #include "bench/tuning/optimizer.hpp"
 #include "bench/tuning/tune_jobs.hpp"
 
@@ -19,21 +21,23 @@ namespace {
 /// Of a point without an objective: worse than any.
 constexpr double kNoObjective = 1e12;
 
-/// The point in the parameters' own units.
-std::vector<double> values_of(const TuneTask& task, const std::vector<double>& fractions) {
-  std::vector<double> values;
-  for (std::size_t i = 0; i < fractions.size(); ++i) {
-    values.push_back(value_at(task.ranges[i], fractions[i]));
-  }
-  return values;
-}
-
+/// Where the search starts: at the defaults, or as near as the ranges allow.
 std::vector<double> start_of(const TuneTask& task) {
   std::vector<double> fractions;
   for (std::size_t i = 0; i < task.ranges.size(); ++i) {
     fractions.push_back(std::clamp(fraction_of(task.ranges[i], task.defaults[i]), 0.0, 1.0));
   }
   return fractions;
+}
+
+/// The point in the parameters' own units.
+std::vector<double> values_of(const TuneTask& task, const std::vector<double>& fractions) {
+  if (fractions == start_of(task) && defaults_outside(task).empty()) return task.defaults;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < fractions.size(); ++i) {
+    values.push_back(value_at(task.ranges[i], fractions[i]));
+  }
+  return values;
 }
 
 /// The runs of one estimator in one objective.
@@ -58,9 +62,9 @@ class Tuning {
     if (!run) return tl::unexpected(run.error());
     result_.complete = run->complete;
     result_.converged = run->converged;
-    result_.generation = run->generation;
-    result_.chosen = pareto_front(run->objectives);
-    if (result_.tables.size() == 1 && run->points.size() > 0) result_.chosen = {result_.chosen[0]};
+    add_generations(run->generation);
+    choose();
+    if (auto kept = keep_idle_defaults(); !kept) return tl::unexpected(kept.error());
     if (auto held = add_held_out(); !held) return tl::unexpected(held.error());
     return std::move(result_);
   }
@@ -81,14 +85,72 @@ class Tuning {
       if (const auto failed = failed_lines(table); failed.size() == table.cases.size()) {
         return failure("no run with the default values ended: " + failed.front());
       }
-      if (objective_at(table, objective, kDefaults, cases_of(table, ""))) continue;
+      if (objective_at(table, objective, kDefaults, cases_of(table, ""))) {
+        table.points = {task.defaults};
+        table.runs = {table.default_runs};
+        continue;
+      }
       const auto left_out = left_out_lines(table);
       if (!left_out.empty()) return failure("no valid run is left: " + left_out.front());
       return failure(fmt::format(
           "objectives.{}: no run of {} has the score '{}'; expected a key of scores.json", i,
           text_of(task.estimator), objective.score));
     }
+    result_.generation = {0};
     return true;
+  }
+
+  /// Of the points that the search adds to the defaults.
+  void add_generations(const std::vector<int>& of_search) {
+    for (std::size_t k = 0; k < of_search.size() && k < is_new_.size(); ++k) {
+      if (is_new_[k]) result_.generation.push_back(of_search[k]);
+    }
+  }
+
+  /// The point that is better than all others, the defaults included; of several objectives the
+  /// front.
+  void choose() {
+    const auto& tables = result_.tables;
+    const auto& objectives = result_.task.plan.objectives;
+    if (result_.generation.size() < 2) return;
+    if (tables.size() == 1) {
+      const auto all = cases_of(tables[0], "");
+      const std::size_t least = *least_point(tables[0], objectives[0], all);
+      result_.chosen = {least == kDefaults ? 0 : least};
+      return;
+    }
+    Points values(tables[0].points.size());
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      for (std::size_t i = 0; i < tables.size(); ++i) {
+        values[k].push_back(objective_at(tables[i], objectives[i], k, cases_of(tables[i], ""))
+                                .value_or(kNoObjective));
+      }
+    }
+    result_.chosen = pareto_front(values);
+  }
+
+  /// Where the chosen point has other values than the defaults of parameters without effect, the
+  /// one with the defaults is run and chosen, unless it turns out to be worse.
+  Result<void> keep_idle_defaults() {
+    if (result_.tables.size() != 1 || result_.chosen.empty() || !result_.complete) return {};
+    const TuneTask& task = result_.task;
+    ResponseTable& table = result_.tables.front();
+    std::vector<double> values = table.points[result_.chosen.front()];
+    const std::vector<bool> idle = without_effect(table);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (idle[i]) values[i] = task.defaults[i];
+    }
+    if (std::ranges::find(table.points, values) != table.points.end()) return {};
+    const EstimatorSpec estimator = estimator_at(task, values);
+    auto scores = run_({&estimator, 1}, task.sequences);
+    if (!scores) return tl::unexpected(scores.error());
+    result_.complete = scores->has_value();
+    if (!result_.complete) return {};
+    table.points.push_back(values);
+    table.runs.push_back(runs_in((**scores).front(), 0));
+    result_.generation.push_back(result_.generation.back());
+    choose();
+    return {};
   }
 
   Result<std::optional<Points>> evaluate(const Points& points) {
@@ -102,13 +164,18 @@ class Tuning {
     if (!*scores) return std::optional<Points>();
     Points objectives(points.size());
     for (std::size_t k = 0; k < points.size(); ++k) {
+      const std::vector<double> values = values_of(task, points[k]);
+      is_new_.push_back(values != task.defaults);
       for (std::size_t i = 0; i < result_.tables.size(); ++i) {
         ResponseTable& table = result_.tables[i];
-        table.points.push_back(values_of(task, points[k]));
-        table.runs.push_back(runs_in((**scores)[k], i));
-        objectives[k].push_back(objective_at(table, task.plan.objectives[i],
-                                             table.points.size() - 1, cases_of(table, ""))
-                                    .value_or(kNoObjective));
+        if (is_new_.back()) {
+          table.points.push_back(values);
+          table.runs.push_back(runs_in((**scores)[k], i));
+        }
+        const std::size_t row = is_new_.back() ? table.points.size() - 1 : 0;
+        objectives[k].push_back(
+            objective_at(table, task.plan.objectives[i], row, cases_of(table, ""))
+                .value_or(kNoObjective));
       }
     }
     return objectives;
@@ -117,6 +184,7 @@ class Tuning {
   Result<void> add_held_out() {
     const TuneTask& task = result_.task;
     if (task.held_out.empty() || result_.chosen.empty() || !result_.complete) return {};
+    if (keeps_defaults(result_)) return {};
     std::vector<EstimatorSpec> estimators = {task.estimator};
     std::vector<std::vector<double>> points;
     for (const std::size_t k : result_.chosen) {
@@ -140,6 +208,7 @@ class Tuning {
   }
 
   const RunOnSequences& run_;
+  std::vector<bool> is_new_;  ///< of each point of the search: not the defaults
   TuneResult result_;
 };
 
@@ -156,6 +225,25 @@ std::vector<Job> jobs_of(std::span<const EstimatorSpec> estimators,
 }
 
 }  // namespace
+
+bool keeps_defaults(const TuneResult& result) {
+  return result.tables.size() == 1 && result.chosen == std::vector<std::size_t>{0};
+}
+
+std::vector<std::string> defaults_outside(const TuneTask& task) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < task.ranges.size(); ++i) {
+    const ParameterRange& range = task.ranges[i];
+    const double value = task.defaults[i];
+    if (range.low <= value && value <= range.high) continue;
+    lines.push_back(fmt::format(
+        "the default {} of {} lies outside of its range {} to {}: the search starts at {}, "
+        "and point 0, the defaults, was run at {}",
+        value, range.key, range.low, range.high, value < range.low ? range.low : range.high,
+        value));
+  }
+  return lines;
+}
 
 Result<TuneResult> tune(const TuneTask& task, const RunOnSequences& run) {
   return Tuning(task, run)();

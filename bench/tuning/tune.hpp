@@ -26,7 +26,7 @@ using RunOnSequences = std::function<Result<std::optional<SequenceScores>>(
 struct TuneResult {
   TuneTask task;
   std::vector<ResponseTable>
-      tables;                   ///< on the sequences that are tuned on; every point that was run
+      tables;                   ///< on the sequences that are tuned on; point 0 are the defaults
   std::vector<int> generation;  ///< of each point, 0 = the first population
   std::vector<std::size_t> chosen;      ///< the best point; of several objectives the front
   std::vector<ResponseTable> held_out;  ///< of the chosen points, in order; empty: nothing held out
@@ -39,6 +39,12 @@ struct TuneResult {
 /// sequences. The same task gives the same points where its scores do not depend
 /// on time. Error when the default setting has no objective on the sequences.
 Result<TuneResult> tune(const TuneTask& task, const RunOnSequences& run);
+
+/// Whether no point of the search is better than the defaults. Nothing is held out then.
+bool keeps_defaults(const TuneResult& result);
+
+/// A line per parameter whose default lies outside of its range.
+std::vector<std::string> defaults_outside(const TuneTask& task);
 
 /// Jobs of a tuning that does not converge early: the default setting, every generation, and what
 /// is held out (of several objectives about a population of points).

@@ -66,11 +66,12 @@ std::string overlay_text(const TuneResult& result) {
   text += fmt::format("# search: {}\n# code: {}\n# plan:\n{}", search_text(result), code_version(),
                       commented(plan_text(task.plan)));
   auto settings = settings_of(task, result.tables.front().points[result.chosen.front()]);
+  if (keeps_defaults(result)) settings.clear();
   const EstimatorSpec& estimator = result.task.estimator;
   const std::string& name = is_python_name(estimator.name) ? estimator.label : estimator.name;
   for (auto& [key, value] : settings) key = fmt::format("estimators.{}.{}", name, key);
   std::sort(settings.begin(), settings.end());
-  return text + nested_yaml(settings);
+  return text + (settings.empty() ? "{}\n" : nested_yaml(settings));
 }
 
 Result<void> write_overlay(const TuneResult& result, const std::filesystem::path& file) {

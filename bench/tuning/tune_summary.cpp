@@ -9,6 +9,7 @@
 #include "bench/metrics/paired_test.hpp"
 #include "bench/run/code_version.hpp"
 #include "bench/scoring/score_record.hpp"
+#include "bench/tuning/effect.hpp"
 #include "bench/tuning/response_summary.hpp"
 #include "bench/tuning/tune_overlay.hpp"
 #include "bench/tuning/values_text.hpp"
@@ -58,12 +59,15 @@ std::string settings_text(const TuneResult& result) {
 std::string single_markdown(const TuneResult& result) {
   const Objective& objective = result.task.plan.objectives.front();
   std::string text = fmt::format("\n{}\n", to_markdown(outcome_table(result)));
-  text +=
-      "The change on the sequences that were tuned on is optimistic: the values were chosen on "
-      "them.\n";
+  if (!keeps_defaults(result)) {
+    text +=
+        "The change on the sequences that were tuned on is optimistic: the values were chosen on "
+        "them.\n";
+  }
   text += "\n## Values\n\n" + response_markdown(result.tables.front(), objective);
   text += history_markdown(result);
-  text += settings_text(result);
+  if (!keeps_defaults(result)) text += settings_text(result);
+  if (keeps_defaults(result)) return text;
   if (!result.held_out.empty()) {
     text += "\n## Held out\n\n" + to_markdown(gain_table(result.held_out.front(), objective, 0));
   }
@@ -90,6 +94,7 @@ std::string markdown_of(const TuneResult& result) {
   text += task.held_out.empty() ? "- nothing held out\n"
                                 : fmt::format("- held out {}\n", sequences_text(task.held_out));
   text += fmt::format("- {}\n- code {}\n", search_text(result), code_version());
+  for (const std::string& line : defaults_outside(task)) text += fmt::format("- {}\n", line);
   if (result.chosen.empty()) return text;
   if (task.plan.objectives.size() == 1) {
     text += single_markdown(result);
@@ -227,13 +232,25 @@ std::vector<std::string> verdict_lines(const TuneResult& result) {
   if (result.tables.size() == 1) {
     const TuneTask& task = result.task;
     lines.push_back("tuned values: " +
-                    values_text(task.ranges, task.defaults, chosen_values(result)));
+                    (keeps_defaults(result)
+                         ? "none"
+                         : values_text(task.ranges, task.defaults, chosen_values(result),
+                                       without_effect(result.tables.front()))));
   }
   lines.push_back("verdict: " + held_out_verdict(result));
   return lines;
 }
 
 std::string held_out_verdict(const TuneResult& result) {
+  if (keeps_defaults(result) && all_diverged(result.tables.front())) {
+    return "undecided: every run diverged or failed, with the defaults and with every other point";
+  }
+  if (keeps_defaults(result)) {
+    return fmt::format(
+        "keep the defaults: none of the {} other points is better on the sequences "
+        "tuned on",
+        result.generation.size() - 1);
+  }
   if (result.held_out.empty() && !result.task.held_out.empty()) {
     return "not validated: interrupted before the held-out sequences were run";
   }
@@ -259,7 +276,8 @@ std::string front_verdict(const TuneResult& result) {
     }
     if (verdict == FrontVerdict::kBetter) ++better;
   }
-  const std::size_t points = result.chosen.size();
+  const auto points = static_cast<std::size_t>(
+      std::ranges::count_if(result.chosen, [](std::size_t point) { return point != 0; }));
   const std::string on =
       fmt::format("on {} held-out sequences", result.held_out.front().cases.size());
   if (better == 0) {
@@ -319,8 +337,8 @@ TextTable front_table(const TuneResult& result) {
   TextTable text;
   for (const ParameterRange& range : task.ranges) text.header.push_back(range.key);
   for (const Objective& objective : task.plan.objectives) {
-    text.header.push_back(objective.score);
-    if (!result.held_out.empty()) text.header.push_back(objective.score + ", held out");
+    text.header.push_back(value_label(objective));
+    if (!result.held_out.empty()) text.header.push_back(value_label(objective) + ", held out");
   }
   if (!result.held_out.empty()) text.header.emplace_back("against the defaults, held out");
   const auto row = [&](const std::vector<double>& values, std::size_t point, std::size_t held) {
@@ -337,6 +355,7 @@ TextTable front_table(const TuneResult& result) {
     text.rows.push_back(std::move(cells));
   };
   for (std::size_t k = 0; k < result.chosen.size(); ++k) {
+    if (result.chosen[k] == 0) continue;  // the defaults, which have a row of their own
     row(result.tables.front().points[result.chosen[k]], result.chosen[k], k);
     if (result.held_out.empty()) continue;
     text.rows.back().emplace_back(name_of(front_verdict_of(front_gains(result, k))));

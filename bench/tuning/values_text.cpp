@@ -30,9 +30,14 @@ std::string edge_text(const ParameterRange& range, double value) {
 }  // namespace
 
 std::string values_text(std::span<const ParameterRange> ranges, std::span<const double> defaults,
-                        std::span<const double> values) {
+                        std::span<const double> values, const std::vector<bool>& without_effect) {
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < ranges.size(); ++i) {
+    if (i < without_effect.size() && without_effect[i]) {
+      texts.push_back(
+          fmt::format("{} {:.3g} as by default (no effect measured)", ranges[i].key, defaults[i]));
+      continue;
+    }
     const std::string value = fmt::format("{:.3g}", values[i]);
     const std::string before = fmt::format("{:.3g}", defaults[i]);
     const std::string beside = value == before ? " as by default" : " instead of " + before;

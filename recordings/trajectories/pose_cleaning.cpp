@@ -24,8 +24,12 @@ enum Fault : std::size_t {
   kRepeated,
   kBackwards,
   kLost,
+  kTooFar,
   kFaults
 };
+
+/// Beyond this a pose is not compared with the truth [m]; bench/metrics/association.cpp.
+constexpr double kFarthest = 1e6;
 
 Fault fault_of(const StampedPose& pose, const std::optional<Time>& last) {
   const Pose& each = pose.pose;
@@ -100,7 +104,8 @@ std::string text_of(const std::array<std::size_t, kFaults>& counts) {
       "without a unit quaternion",
       "with the stamp of the one before",
       "stamped before the one before",
-      "exactly at the origin while those around are not"};
+      "exactly at the origin while those around are not",
+      "more than 1000 km from the origin"};
   std::vector<std::string> parts;
   for (std::size_t i = kNotFinite; i < kFaults; ++i) {
     if (counts[i] > 0) parts.push_back(fmt::format("{} {}", counts[i], kTexts[i]));
@@ -176,9 +181,10 @@ std::string unusable_text(const Trajectory& poses) {
   std::array<std::size_t, kFaults> counts{};
   std::optional<Time> last;
   for (const StampedPose& each : poses) {
-    const Fault fault = fault_of(each, last);
-    ++counts[fault];
+    Fault fault = fault_of(each, last);
     if (fault == kNoFault) last = each.stamp;
+    if (fault == kNoFault && each.pose.translation.norm() >= kFarthest) fault = kTooFar;
+    ++counts[fault];
   }
   return text_of(counts);
 }

@@ -8,10 +8,12 @@
 namespace aims {
 namespace {
 
+constexpr const char* kStartAligned = "estimates aligned by their start alone";
+
 TrajectoryPlot trajectories_of(const FilmedSequence& sequence) {
   TrajectoryPlot plot;
   plot.title = sequence.scenario + ": estimated trajectories";
-  plot.subtitle = fmt::format("seed {}", sequence.seed);
+  plot.subtitle = fmt::format("seed {}  ·  {}", sequence.seed, kStartAligned);
   plot.scene = sequence.scene;
   plot.truth = sequence.truth;
   plot.estimates = sequence.estimates;

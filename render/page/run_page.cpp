@@ -15,6 +15,7 @@
 #include "core/series_style.hpp"
 #include "render/page/map_cloud.hpp"
 #include "render/page/page_data.hpp"
+#include "render/page/repeat_command.hpp"
 #include "render/page/run_folder.hpp"
 #include "render/page/run_series.hpp"
 #include "render/page/scan_series.hpp"
@@ -47,27 +48,6 @@ std::vector<PagePicture> pictures_of(const RunFolder& run) {
 }
 /// Pictures beyond this size are left out [bytes].
 constexpr std::uintmax_t kLargestPicture = 512 * 1024;
-
-/// A word as a shell reads it back.
-std::string quoted(const std::string& word) {
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
-/// The command that repeats the run, called in its folder; null for scores of foreign trajectories.
-Json command_json(const RunFolder& run) {
-  if (run.config_yaml.empty()) return {};
-  if (run.estimate.is_object()) {
-    const Json bag = member(run.estimate, "bag");
-    if (!bag.is_string()) return {};
-    return fmt::format("aims estimate {} --config config.yaml", quoted(bag.get<std::string>()));
-  }
-  const Json seed = member(run.scores, "seed");
-  const std::string seeds =
-      seed.is_number_unsigned() ? fmt::format(" --seed {}", seed.get<std::uint64_t>()) : "";
-  return fmt::format("aims run config.yaml{}", seeds);
-}
 
 /// "mine, theirs against truth": of scores of any system, whose scenario is the truth's name.
 std::string name_of_scores(const Json& scores, const std::string& truth) {
@@ -118,6 +98,17 @@ Json scenario_json(const RunFolder& run) {
           {"robot", member(run.scores, "robot")},
           {"corridor", is_corridor(run)},
           {"body", run.scenario ? body_json(run.scenario->simulation.robot) : Json()}};
+}
+
+/// The estimators that failed, each with its message.
+Json failures_json(const RunFolder& run) {
+  const Json of_estimate = member(run.estimate, "failures");
+  if (!of_estimate.is_object()) return member(run.scores, "failures");
+  Json list = Json::array();
+  for (const auto& [name, message] : of_estimate.items()) {
+    list.push_back({{"estimator", name}, {"message", message}});
+  }
+  return list;
 }
 
 Json changes_json(const RunFolder& run) {
@@ -222,8 +213,9 @@ Result<PageData> run_page(const fs::path& folder) {
       {"t0_s", start},
       {"palette", palette_json()},
       {"warnings", member(run->estimate, "warnings")},
+      {"failures", failures_json(*run)},
       {"scenario", scenario_json(*run)},
-      {"command", command_json(*run)},
+      {"command", repeat_command_json(*run)},
       {"config_yaml", run->config_yaml.empty() ? Json() : Json(run->config_yaml)},
       {"config_changes", changes_json(*run)},
       {"scores", run->scores},

@@ -11,6 +11,7 @@
 #include "bench/run/expectations.hpp"
 #include "bench/scoring/json_text.hpp"
 #include "bench/studies/suite_summary.hpp"
+#include "core/files/atomic_file.hpp"
 #include "render/page/links.hpp"
 #include "render/page/run_folder.hpp"
 #include "render/page/series.hpp"
@@ -38,6 +39,22 @@ Scenario scenario_of(const fs::path& run_folder, const RunRecord& record, Json& 
     scenario.run.push_back(name);
   }
   return scenario;
+}
+
+/// What summary.json says of all seeds: failures, settings, whether all jobs have ended.
+void add_summary(const fs::path& folder, Json& suite, Json& notes) {
+  const fs::path file = folder / "summary.json";
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return;
+  const auto text = read_file(file);
+  const auto summary = text ? parse_json(*text, "summary.json") : tl::unexpected(text.error());
+  if (!summary) {
+    notes.push_back("Without failures and settings: " + summary.error().message);
+    return;
+  }
+  for (const char* key : {"failures", "settings", "complete"}) {
+    if (summary->is_object() && summary->contains(key)) suite[key] = (*summary)[key];
+  }
 }
 
 /// "1-3", "1, 3" or "4".
@@ -93,6 +110,7 @@ Result<PageData> seeds_page(const fs::path& folder, const PageOptions& options) 
   Suite suite;
   suite.cases.push_back(std::move(only));
   Json summary = suite_json(suite);
+  add_summary(folder, summary, notes);
   page.json = {{"schema", kPageSchema},
                {"kind", "suite"},
                {"title", page.title},

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "bench/tuning/analysis.hpp"
+#include "bench/tuning/effect.hpp"
 #include "bench/tuning/held_out.hpp"
 #include "bench/tuning/sensitivity.hpp"
 #include "bench/tuning/slice.hpp"
-#include "bench/tuning/values_text.hpp"
 
 namespace aims {
 namespace {
@@ -32,8 +32,10 @@ Json intervals_json(const std::vector<Interval>& intervals) {
 
 Json best_json(const ResponseTable& table, const BestPoint& best) {
   return {{"values", best.values},
-          {"text", values_text(table.ranges, table.defaults, best.values)},
+          {"is_default", best.is_default()},
+          {"text", text_of(best, table)},
           {"between", intervals_json(best.between)},
+          {"without_effect", best.without_effect},
           {"objective", json_of(best.objective)},
           {"objective_interval", interval_json(best.objective_interval)},
           {"defaults", json_of(best.defaults)},
@@ -54,6 +56,7 @@ Json sensitivity_json(const Sensitivity& sensitivity, std::size_t parameters) {
   Json negligible = Json::array();
   for (std::size_t i = 0; i < parameters; ++i) negligible.push_back(sensitivity.is_negligible(i));
   Json json = {{"points", sensitivity.points},
+               {"has_indices", sensitivity.has_indices()},
                {"logarithmic", sensitivity.logarithmic},
                {"of_grid", sensitivity.of_grid},
                {"resolved", sensitivity.is_resolved()},
@@ -181,6 +184,7 @@ Json analysis_json(const ResponseTable& table, const Objective& objective, PageD
     return json;
   }
   json["best"] = best_json(table, *best);
+  json["effect"] = text_of(effect_of(table, objective));
   const auto sensitivity = sensitivity_of(table, objective);
   if (table.ranges.size() == 1) {
     json["why_no_sensitivity"] = kOneParameter;

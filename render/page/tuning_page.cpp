@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -84,6 +85,29 @@ void collect(const MergedSweep& units, const VariedParameters& varied, bool held
     row.result = std::move(placed->result);
     own.rows.push_back(std::move(row));
   }
+}
+
+/// Numbers the points: the defaults are 0, those of a tuning follow in the order of its search.
+void number_points(const TuningSource& source, const VariedParameters& varied, EstimatorRows& own) {
+  const auto defaults = default_values(own.estimator, varied);
+  const auto place = [&](std::size_t i) {
+    const std::vector<double>& point = own.points[i];
+    if (point.empty() || (defaults && point == *defaults)) return std::pair(0, std::size_t{0});
+    const auto found = source.points.find(point);
+    const bool known = found != source.points.end();
+    return std::pair(known ? 1 : 2, known ? found->second.index : i);
+  };
+  std::vector<std::size_t> order(own.points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, place);
+  std::vector<std::vector<double>> points;
+  std::vector<std::size_t> number(order.size());
+  for (const std::size_t i : order) {
+    number[i] = points.size();
+    points.push_back(own.points[i]);
+  }
+  own.points = std::move(points);
+  for (Row& row : own.rows) row.point = number[row.point];
 }
 
 void add_keys(const Json& json, const std::string& prefix, std::vector<std::string>& keys) {
@@ -245,6 +269,7 @@ Result<PageData> tuning_page(const fs::path& folder, const PageOptions& /*option
   Collected all;
   collect(source->units, *varied, false, all);
   collect(source->held_out, *varied, true, all);
+  for (auto& each : all.estimators) number_points(*source, *varied, each);
   const auto scores = scores_of(*source, all);
   PageData page;
   page.title = title_of(*source, *varied);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -33,6 +34,12 @@ TimeSeries series_of(const SeriesCurve& curve, const Diagnostics& diagnostics) {
     if (shown) series.points.emplace_back(to_seconds(scan.stamp), value);
   }
   return series;
+}
+
+/// What an estimator does not compute is the same throughout.
+bool varies(const TimeSeries& series) {
+  return std::ranges::any_of(
+      series.points, [&](const auto& point) { return point.y() != series.points.front().y(); });
 }
 
 /// A panel and its curves.
@@ -71,7 +78,7 @@ const std::vector<SeriesPanel> kSeriesPanels = {
     {"Estimated delay of the IMU", "[s]", {{"delay", "delay"}}, false, false},
 };
 
-/// The panels of those series that have values.
+/// The panels of those series that have values, and not the same one throughout.
 std::vector<TimePanel> panels_of(const Diagnostics& diagnostics) {
   std::vector<TimePanel> panels;
   for (const SeriesPanel& panel : kSeriesPanels) {
@@ -80,7 +87,7 @@ std::vector<TimePanel> panels_of(const Diagnostics& diagnostics) {
       TimeSeries series = series_of(curve, diagnostics);
       if (!series.points.empty()) drawn.series.push_back(std::move(series));
     }
-    if (!drawn.series.empty()) panels.push_back(std::move(drawn));
+    if (std::ranges::any_of(drawn.series, varies)) panels.push_back(std::move(drawn));
   }
   return panels;
 }
@@ -113,7 +120,7 @@ Result<bool> draw_degeneracy(const std::string& title, const std::string& subtit
   TimePlot plot;
   plot.panels = panels_of(outcome.result.diagnostics);
   if (plot.panels.empty()) return false;
-  plot.title = fmt::format("{}: degeneracy index of {}", title, outcome.name);
+  plot.title = fmt::format("{}: degeneracy of {}", title, outcome.name);
   plot.subtitle = subtitle;
   for (const WaypointTime& waypoint_time : waypoint_times) {
     plot.events.emplace_back(to_seconds(waypoint_time.stamp), waypoint_time.point);

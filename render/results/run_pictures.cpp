@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <utility>
 
 #include "bench/run/sequence.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "bench/scoring/estimator_files.hpp"
+#include "bench/scoring/score_record.hpp"
 #include "bench/scoring/start_anchor.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/tum.hpp"
@@ -42,6 +44,15 @@ struct DrawnRun {
   std::string subtitle;
 };
 
+/// When the estimator diverged, as scores.json says; none if it did not.
+std::optional<Time> diverged_at(const fs::path& folder, const std::string& label) {
+  const auto text = read_file(folder / "scores.json");
+  const auto scores = text ? parse_json(*text, "scores.json") : tl::unexpected(text.error());
+  if (!scores) return std::nullopt;
+  const auto seconds = number_at(member(member(*scores, "estimators"), label), "diverged_at_s");
+  return seconds ? std::optional(from_seconds(*seconds)) : std::nullopt;
+}
+
 /// What is read of an estimator.
 using PartsOf = std::function<EstimatorParts(const std::string& label)>;
 
@@ -68,6 +79,7 @@ Result<DrawnRun> read_run(const fs::path& folder, const PartsOf& parts_of) {
     if (!fs::exists(folder / (label + ".tum"))) continue;  // it failed
     auto estimator = read_estimator(folder, label, parts_of(label));
     if (!estimator) return tl::unexpected(estimator.error());
+    estimator->scores.diverged_at = diverged_at(folder, label);
     run.estimators.push_back(std::move(*estimator));
   }
   const double end_s = run.truth.empty() ? 0.0 : to_seconds(run.truth.back().stamp);
@@ -78,13 +90,15 @@ Result<DrawnRun> read_run(const fs::path& folder, const PartsOf& parts_of) {
 Result<void> draw_trajectories(const DrawnRun& run, const fs::path& file) {
   TrajectoryPlot plot;
   plot.title = run.scenario.name + ": estimated trajectories";
-  plot.subtitle = run.subtitle;
+  plot.subtitle = fmt::format("{}  ·  {}", run.subtitle, kHeadingFitted);
   plot.scene = run.scene;
   plot.truth = thinned(run.truth, kRunSpacing);
   plot.waypoint_times = run.waypoint_times;
   for (const EstimatorOutcome& outcome : run.estimators) {
-    plot.estimates.push_back(
-        {outcome.name, anchored(outcome.result.trajectory, run.truth, run.scenario.scoring)});
+    const ScoreConfig& scoring = run.scenario.scoring;
+    Trajectory start = anchored(outcome.result.trajectory, run.truth, scoring);
+    plot.estimates.push_back({outcome.name, heading_fitted(std::move(start), run.truth, scoring,
+                                                           outcome.scores.diverged_at)});
   }
   return write_trajectory_plot(file, plot);
 }
@@ -107,7 +121,7 @@ Result<void> draw_maps(const DrawnRun& run, const std::vector<std::string>& name
   MapGrid grid;
   grid.title = run.scenario.name + ": maps";
   grid.subtitle = run.subtitle +
-                  "  ·  starts laid onto the truth, equal scales; white: trajectory, "
+                  "  ·  aligned by their start alone, equal scales; white: trajectory, "
                   "dot: its start";
   grid.truth = run.truth;
   for (const std::string& name : names) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "bench/scoring/start_anchor.hpp"
 #include "render/plots/time_plot.hpp"
 #include "render/plots/trajectory_plot.hpp"
 
@@ -23,10 +24,10 @@ constexpr Duration kDrawnSpacing = 100 * kMillisecond;
 constexpr double kLeastMetres = 1e-3;
 constexpr double kLeastDegrees = 1e-2;
 
-std::string subtitle_of(const TrajectoryScores& scores) {
+std::string subtitle_of(const TrajectoryScores& scores, const char* alignment) {
   const Trajectory& truth = scores.truth.trajectory;
-  return fmt::format("{:.1f} m in {:.0f} s, estimates laid onto the truth at the start",
-                     path_length(truth), to_seconds(truth.back().stamp - truth.front().stamp));
+  return fmt::format("{:.1f} m in {:.0f} s  ·  {}", path_length(truth),
+                     to_seconds(truth.back().stamp - truth.front().stamp), alignment);
 }
 
 /// The reference points, or the ends of segments "from-to" that were given by their times.
@@ -44,11 +45,14 @@ std::vector<WaypointTime> points_of(const TrajectoryScores& scores) {
 Result<void> draw_trajectories(const TrajectoryScores& scores, const std::filesystem::path& file) {
   TrajectoryPlot plot;
   plot.title = scores.truth.name + ": estimated trajectories";
-  plot.subtitle = subtitle_of(scores);
+  plot.subtitle = subtitle_of(scores, kHeadingFitted);
   plot.truth = thinned(scores.truth.trajectory, kDrawnSpacing);
   plot.waypoint_times = points_of(scores);
   for (const ScoredEstimate& each : scores.estimates) {
-    plot.estimates.push_back({each.given.name, thinned(each.in_truth_frame, kDrawnSpacing)});
+    plot.estimates.push_back(
+        {each.given.name,
+         heading_fitted(thinned(each.in_truth_frame, kDrawnSpacing), scores.truth.trajectory,
+                        scores.scoring, each.scores.diverged_at)});
   }
   return write_trajectory_plot(file, plot);
 }
@@ -86,7 +90,7 @@ Result<void> draw_errors(const TrajectoryScores& scores, const std::filesystem::
   TimePlot plot;
   plot.of_estimators = true;
   plot.title = scores.truth.name + ": errors over time";
-  plot.subtitle = subtitle_of(scores);
+  plot.subtitle = subtitle_of(scores, "estimates aligned by their start alone");
   plot.panels = {
       panel_of(scores, "Distance from the truth, from 1 mm", "error [m]", kLeastMetres, distance),
       panel_of(scores, "Height error, from 1 mm", "error [m]", kLeastMetres, height)};

@@ -127,6 +127,12 @@ TEST_F(CommandLine, ListShowsFamiliesAndTakesSeveralTags) {
   EXPECT_NE(list.output.find("loss             [%], 2 scenarios: mild, hard"), std::string::npos)
       << list.output;
   EXPECT_EQ(list.output.find("other"), std::string::npos) << list.output;
+  for (const char* none : {"nowhere", "scenarios/deep/mild.yaml"}) {
+    const Outcome no_folder = aims(std::string("list --folder ") + none);
+    EXPECT_EQ(no_folder.exit_code, 2) << no_folder.output;
+    EXPECT_NE(no_folder.output.find("expected a folder of scenarios"), std::string::npos)
+        << no_folder.output;
+  }
   const Outcome unknown = aims("list --tags four");
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_NE(unknown.output.find("'four'; there are one, three, two"), std::string::npos);
@@ -150,8 +156,13 @@ TEST_F(CommandLine, ASuiteRunsResumesChecksItsExpectationsAndIsCompared) {
       std::string::npos)
       << first.output;
   EXPECT_NE(aims(suite).output.find("0 jobs done, 2 found finished"), std::string::npos);
-  const Outcome changed = aims(suite + " --set estimators.leg.queue.lag=0.1");
-  EXPECT_NE(changed.output.find("2 jobs done, 0 found finished, 0 sequences simulated"),
+  const std::string lag = " --set estimators.leg.queue.lag=0.1";
+  const Outcome refused = aims(suite + lag);
+  EXPECT_EQ(refused.exit_code, 2) << refused.output;
+  EXPECT_NE(refused.output.find("here: holds results with no --set"), std::string::npos)
+      << refused.output;
+  const Outcome changed = aims(suite + lag + " --overwrite");
+  EXPECT_NE(changed.output.find("2 jobs done, 0 found finished, sequences from the cache"),
             std::string::npos)
       << changed.output;
   const Outcome same = aims("study compare here here --fail-on-worse --out compared");

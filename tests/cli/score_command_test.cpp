@@ -8,6 +8,7 @@
 #include <fstream>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 #include "tests/cli/command_line.hpp"
@@ -153,7 +154,7 @@ TEST_F(Score, NothingToCompareIsAnErrorThatSaysWhatIsMissing) {
   for (int i = 0; i <= 200; ++i) invalid += fmt::format("{:.1f} nan 0 0 0 0 0 1\n", 0.1 * i);
   write("invalid.tum", invalid);
   write("one.tum", "3 1 0 0 0 0 0 1\n");
-  expect_refused("--truth truth.tum --estimate truth.tum --estimate invalid.tum",
+  expect_refused("--truth truth.tum --estimate truth.tum --estimate invalid.tum --name mine,theirs",
                  {"invalid.tum: expected at least two poses", "of 201 poses, 0 are valid"});
   expect_refused("--truth truth.tum --estimate one.tum", {"one.tum", "found 1: of 1 poses, 1 are"});
 }
@@ -197,9 +198,32 @@ TEST_F(Score, ComparedOnOneSeedHasATableAndNoVerdict) {
   expect_says(gate, {"expected at least 6 common seeds, found at most 1"});
 }
 
+TEST_F(Score, OnlyTheTruthIsCalledTruth) {
+  write("truth.tum", line(0.0, 1.0));
+  write("mine.tum", line(0.0, 1.1));
+  expect_refused("--truth truth.tum --estimate truth.tum",
+                 {"truth.tum", "'truth' is the name of the truth; give another with --name"});
+  expect_refused("--truth truth.tum --estimate mine.tum --name truth", {"--name"});
+}
+
+TEST_F(Score, ANarrowTerminalWrapsWhatItLeavesOut) {
+  write("truth.tum", line(0.0, 1.0));
+  write("mine.tum", line(0.0, 1.1));
+  const Outcome outcome = shell("COLUMNS=50 '" AIMS_COMMAND
+                                "' score --truth truth.tum --estimate mine.tum --no-pictures "
+                                "--no-page --quiet --out narrow");
+  const std::size_t begin = outcome.output.find("in scores.md alone: ");
+  ASSERT_NE(begin, std::string::npos) << outcome.output;
+  std::istringstream lines(outcome.output.substr(begin));
+  std::string line;
+  for (int i = 0; i < 2 && std::getline(lines, line); ++i) EXPECT_LE(line.size(), 50U) << line;
+  EXPECT_TRUE(line.starts_with("  ")) << outcome.output;
+}
+
 TEST_F(Score, ResultsAreNotReplacedUnasked) {
   write("truth.tum", line(0.0, 1.0));
-  const std::string score = "score --truth truth.tum --estimate truth.tum --no-pictures --out here";
+  const std::string score =
+      "score --truth truth.tum --estimate truth.tum --name mine --no-pictures --out here";
   EXPECT_EQ(aims(score).exit_code, 0);
   EXPECT_EQ(aims(score).exit_code, 2);
   EXPECT_EQ(aims(score + " --overwrite").exit_code, 0);

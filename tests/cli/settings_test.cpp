@@ -29,6 +29,13 @@ TEST_F(Settings, KeysThatBeginAlikeAreProposed) {
   expect_refused("runn corridor", "unknown command 'runn'; did you mean 'aims run'?");
 }
 
+TEST_F(Settings, AKeyOfAnotherNameIsNotProposed) {
+  expect_refused("config --set estimators.aims_d.nothing=1",
+                 "unknown key 'estimators.aims_d.nothing'\n");
+  expect_refused("config --set estimators.aimsd.degeneracy.eta=1",
+                 "did you mean 'estimators.aims.degeneracy.eta'?");
+}
+
 TEST_F(Settings, LimitsOfSeedsAreNamed) {
   scenario(testing::kMetreWalk);
   expect_refused(

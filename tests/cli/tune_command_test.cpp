@@ -15,10 +15,10 @@ namespace {
 namespace fs = std::filesystem;
 using testing::Outcome;
 
-/// Neither range holds the default, so that values which are not taken over show.
+/// The first one has no effect, and its range does not hold the default.
 const std::string kPlan =
-    "estimator: leg\n"
-    "params: [\"queue.max_ahead=60:150\", \"max_speed=log(1,4)\"]\n"
+    "estimator: leg_inertial\n"
+    "params: [\"queue.max_ahead=60:150\", \"initialization.sigma_gyro_bias=log(0.00001,0.1)\"]\n"
     "scenarios: [my.yaml]\n"
     "seeds: 1\n"
     "held_out: {seeds: 2}\n"
@@ -59,6 +59,8 @@ TEST_F(Tunes, WriteValuesThatARunTakes) {
   EXPECT_TRUE(holds(tuned, "diverged runs ")) << "what a user understands leads" << tuned.output;
   EXPECT_TRUE(holds(tuned, "\nobjective: ")) << tuned.output;
   EXPECT_TRUE(holds(tuned, "nothing can be concluded from one held-out seed")) << tuned.output;
+  EXPECT_TRUE(holds(tuned, "note: the default 5 of queue.max_ahead lies outside of its range"))
+      << tuned.output;
   EXPECT_FALSE(holds(tuned, "to use them: --set")) << tuned.output;
   EXPECT_TRUE(holds(tuned, "\nverdict: ")) << tuned.output;
   EXPECT_TRUE(holds(tuned, "search: ")) << tuned.output;
@@ -68,10 +70,11 @@ TEST_F(Tunes, WriteValuesThatARunTakes) {
     EXPECT_TRUE(fs::exists(folder_.path() / "out" / name)) << name;
   }
   const std::string values = read_file(folder_.path() / "tuned.yaml").value();
-  const auto rate = values.find("      max_ahead: ");
+  EXPECT_NE(values.find("      max_ahead: 5\n"), std::string::npos) << "the default " << values;
+  const auto rate = values.find("      sigma_gyro_bias: ");
   ASSERT_NE(rate, std::string::npos) << values;
   const Outcome run =
-      aims("run my.yaml --estimators leg --no-pictures --out run --set @tuned.yaml");
+      aims("run my.yaml --estimators leg_inertial --no-pictures --out run --set @tuned.yaml");
   EXPECT_EQ(run.exit_code, 0) << run.output;
   const std::string config = read_file(folder_.path() / "run" / "config.yaml").value();
   EXPECT_NE(config.find(values.substr(rate, values.find('\n', rate) - rate)), std::string::npos)

@@ -96,7 +96,7 @@ def test_estimate_gives_the_same_bytes_each_time(own):
 def test_one_that_fails_is_named_and_the_others_are_kept(own, how, message):
     spec = f"bad=python:own_estimators.Fails+how={how}"
     out = f"failed-{how}"
-    _, error = run(own, "estimate", "walk.bag", "--estimators", f"leg,{spec}", "-o", out, code=2)
+    _, error = run(own, "estimate", "walk.bag", "--estimators", f"leg,{spec}", "-o", out, code=1)
     assert "bad: FAILED: python:own_estimators.Fails: " in error
     summary = json.loads((own / out / "estimate.json").read_text())
     (failure,) = summary["failures"].values()
@@ -123,7 +123,7 @@ def test_one_that_fails_is_named_and_the_others_are_kept(own, how, message):
 def test_one_that_hangs_is_ended_and_all_before_is_kept(own, how, message, trace):
     out = f"hangs-{how}"
     _, error = run(own, "estimate", "walk.bag", "--estimators",
-                   f"leg,bad=python:own_estimators.Hangs+how={how}+call_timeout=3", "-o", out, code=2)
+                   f"leg,bad=python:own_estimators.Hangs+how={how}+call_timeout=3", "-o", out, code=1)
     assert f"bad: FAILED: python:own_estimators.Hangs: {message}" in error
     assert "has not ended within 3 s (call_timeout)" in error
     assert trace in error and ("Traceback" in error) == bool(trace)
@@ -153,19 +153,21 @@ def test_a_limit_is_that_of_one_call_and_zero_is_none(own):
 
 def test_a_hanging_job_fails_and_the_others_are_done(own):
     out, _ = run(own, "run", "walk.yaml", "--estimators",
-                 "leg,bad=python:own_estimators.Hangs+call_timeout=3", "-o", "hanging-job", code=2)
+                 "leg,bad=python:own_estimators.Hangs+call_timeout=3", "-o", "hanging-job", code=1)
     assert "FAILED: walk seed 1 bad: python:own_estimators.Hangs: add_scan: the call of the" in out
     scores = json.loads((own / "hanging-job" / "scores.json").read_text())
-    assert list(scores["estimators"]) == ["leg"] and not scores["complete"]
+    assert list(scores["estimators"]) == ["leg"] and scores["complete"]
+    assert [each["estimator"] for each in scores["failures"]] == ["bad"]
 
 
 def test_a_failed_job_is_recorded_and_the_others_are_done(own):
     out, _ = run(own, "run", "walk.yaml", "--estimators",
-                 "leg,bad=python:own_estimators.Fails", "-o", "failed-job", code=2)
+                 "leg,bad=python:own_estimators.Fails", "-o", "failed-job", code=1)
     assert "FAILED: walk seed 1 bad: python:own_estimators.Fails: add_legs: ZeroDivisionError" in out
     assert 'own_estimators.py", line' in out
     scores = json.loads((own / "failed-job" / "scores.json").read_text())
-    assert list(scores["estimators"]) == ["leg"] and not scores["complete"]
+    assert list(scores["estimators"]) == ["leg"] and scores["complete"]
+    assert [each["estimator"] for each in scores["failures"]] == ["bad"]
 
 
 @pytest.mark.parametrize(
@@ -340,7 +342,7 @@ def test_stamps_of_another_time_are_left_out_and_spoil_nothing(own):
 
 def test_shared_points_cannot_be_shortened_and_no_process_is_left(own):
     _, error = run(own, "estimate", "walk.bag", "--estimators",
-                   "leg,bad=python:own_estimators.Leaves", "-o", "leaves", code=2)
+                   "leg,bad=python:own_estimators.Leaves", "-o", "leaves", code=1)
     assert "bad: FAILED: python:own_estimators.Leaves: add_scan: PermissionError" in error
     assert len(aims.read_trajectory(own / "leaves" / "leg.tum")) > 20
     child = pathlib.Path("/proc") / (own / "note").read_text() / "stat"

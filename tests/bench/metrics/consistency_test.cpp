@@ -94,7 +94,7 @@ TEST(Consistency, EfficiencyIsTheBoundOverTheErrorBothRootMeanSquare) {
   EXPECT_NEAR(result.error_rms_m, std::sqrt((0.09 + 0.36 + 0.01 + 0.64) / 4.0), 1e-12);
   EXPECT_NEAR(*result.efficiency, std::sqrt(0.1 / 1.1), 1e-12);
   EXPECT_NEAR(result.end.error_rms_m, std::sqrt(0.5), 1e-12);
-  EXPECT_NEAR(result.end.sigma_rms_m, 0.3, 1e-12);
+  EXPECT_NEAR(result.end.sigma_rms_m.value(), 0.3, 1e-12);
   EXPECT_NEAR(result.end.leg_bound_rms_m, 0.4, 1e-12);
   EXPECT_NEAR(*result.end.efficiency, 0.2 / std::sqrt(0.5), 1e-12);
   EXPECT_NEAR(*result.end.nees, 0.5 * (4.0 + 64.0 / 9.0), 1e-12);
@@ -122,6 +122,14 @@ TEST(Consistency, JudgesAnInstantByTheRunsThatStateACovarianceThere) {
   EXPECT_EQ(result.end.covered.runs, 3);
   const double expected = std::pow(runs[3][0].error_m, 2) + std::pow(runs[0][0].error_m, 2);
   EXPECT_NEAR(*result.instants[0].nees, expected / 2.0 / 0.01, 1e-9);
+}
+
+TEST(Consistency, OfRunsThatStateNoCovarianceHasNoStatedDeviation) {
+  std::vector<ConsistencyRun> runs = synthetic_runs(2, 1.0);
+  for (auto& sample : runs[0]) sample.sigma_m.reset();
+  EXPECT_EQ(consistency_of(runs).end.sigma_rms_m, runs[1].back().sigma_m) << "of those that do";
+  for (auto& sample : runs[1]) sample.sigma_m.reset();
+  EXPECT_FALSE(consistency_of(runs).end.sigma_rms_m);
 }
 
 TEST(Consistency, OfNoRunsIsNoVerdict) {

@@ -113,15 +113,17 @@ TEST(Success, AllowsTheTimeToInitializeButNoMore) {
 }
 
 TEST(Success, NeedsPoses) {
-  EXPECT_EQ(verdict_of({}).reason, FailureReason::kNoOverlap);
+  EXPECT_EQ(verdict_of({}).reason, FailureReason::kNoPoses);
+  EXPECT_FALSE(verdict_of({}).diverged_at) << "what never began does not diverge";
   EXPECT_EQ(verdict_of({{0, Pose()}}).reason, FailureReason::kNoOverlap);
-  EXPECT_EQ(judge({}, {}, {}, SuccessLimits()).reason, FailureReason::kNoOverlap);
+  EXPECT_EQ(judge({{0, Pose()}}, {}, {}, SuccessLimits()).reason, FailureReason::kNoOverlap);
 }
 
 TEST(Success, EveryReasonHasAName) {
   for (const auto reason :
-       {FailureReason::kNoOverlap, FailureReason::kInvalid, FailureReason::kStartsLate,
-        FailureReason::kGap, FailureReason::kEndsEarly, FailureReason::kErrorLimit}) {
+       {FailureReason::kNoPoses, FailureReason::kNoOverlap, FailureReason::kInvalid,
+        FailureReason::kStartsLate, FailureReason::kGap, FailureReason::kEndsEarly,
+        FailureReason::kErrorLimit}) {
     EXPECT_FALSE(name_of(reason).empty());
   }
   EXPECT_EQ(name_of(FailureReason::kNone), "");

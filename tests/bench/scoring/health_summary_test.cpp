@@ -47,6 +47,29 @@ TEST(HealthSummary, LinesNameTheEstimatorsThatWereNotHealthy) {
                 "LiDAR scans 3.0 s)"});
 }
 
+TEST(HealthSummary, CountsTheHealthyTimeAfterAnInstant) {
+  EXPECT_DOUBLE_EQ(healthy_after(rows(), 0), 4.0);
+  EXPECT_DOUBLE_EQ(healthy_after(rows(), 2 * kSecond), 3.0);
+  EXPECT_DOUBLE_EQ(healthy_after(rows(), 6 * kSecond), 0.0);
+  EXPECT_DOUBLE_EQ(healthy_after({}, 0), 0.0);
+}
+
+TEST(HealthSummary, LinesNameWhoWasHealthyWhileWrong) {
+  RunRecord run{3, {}};
+  Json& estimators = run.scores["estimators"];
+  const Json healthy = health_json(health_summary({{0, HealthState::kHealthy, {}, 0.0}}));
+  for (const char* name : {"briefly", "leg"}) estimators[name]["health"] = healthy;
+  estimators["briefly"]["health"]["healthy_while_wrong_s"] = 0.4;
+  estimators["leg"]["health"]["healthy_while_wrong_s"] = 98.9;
+  estimators["lio"]["health"] = health_json(health_summary(rows()));
+  estimators["lio"]["health"]["healthy_while_wrong_s"] = 3.0;
+  EXPECT_EQ(health_lines(run),
+            (std::vector<std::string>{
+                "leg seed 3: healthy for 98.9 s while wrong",
+                "lio seed 3: invalid for 3.0 s, degraded for 2.0 s (no leg odometry 5.0 s, no "
+                "LiDAR scans 3.0 s); healthy for 3.0 s while wrong"}));
+}
+
 TEST(HealthSummary, TableHasARowPerChange) {
   const std::string text = health_table(rows()).text();
   EXPECT_TRUE(text.starts_with("stamp_s,state,reasons,position_sigma_m\n")) << text;

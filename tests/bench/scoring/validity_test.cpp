@@ -102,6 +102,10 @@ TEST(ScoreStatistics, TheWorstIsTheSmallestWhereMoreIsBetter) {
   runs[1].scores["estimators"]["aims"]["coverage"] = 0.94;
   EXPECT_EQ(statistics_of(runs, "aims", "coverage").worst, 0.94);
   EXPECT_EQ(statistics_of(runs, "aims", "ate_m").worst, 0.4);
+  EXPECT_EQ(worst_of({8.0, 5.0}, "diverged_at_s"), 5.0) << "the earliest";
+  EXPECT_EQ(worst_of({0.8, 0.5}, "weak_axis.all.efficiency"), 0.5);
+  EXPECT_EQ(worst_of({0.8, 0.5}, "weak_axis.all.error_rms_m"), 0.8);
+  EXPECT_EQ(worst_of({40.0, 55.0}, "health.healthy_s"), 40.0);
 }
 
 TEST(Validity, AMedianOverRunsWithoutSuccessIsMarked) {

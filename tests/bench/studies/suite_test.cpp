@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <map>
 
+#include "bench/jobs/stored_results.hpp"
 #include "bench/studies/families.hpp"
 #include "bench/studies/success_pairs.hpp"
 #include "bench/studies/suite_summary.hpp"
@@ -152,6 +154,41 @@ TEST_F(SuiteRuns, GoOnPastAScenarioThatCannotRun) {
   EXPECT_EQ(Json::parse(std::ifstream(out / "suite.json"))["failures"].size(), 3U);
 }
 
+TEST_F(SuiteRuns, StateWhatIsSetOnTopAndRefuseAFolderOfOtherSettings) {
+  const fs::path out = copy();
+  const auto with = [](const char* setting) {
+    std::vector<ScenarioFile> scenarios = two_walks();
+    for (ScenarioFile& each : scenarios) each.scenario->overrides = {setting, "run=[leg, aims]"};
+    return scenarios;
+  };
+  const auto refused = run_suite(with("lidar.range_max=9"), options_for(out), keep_going);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("holds results with no --set, and this command has --set "
+                                         "lidar.range_max=9; give another --out, or --overwrite"),
+            std::string::npos)
+      << refused.error().message;
+  SuiteOptions replace = options_for(out);
+  replace.jobs.redo = true;
+  run_or_die(with("lidar.range_max=9"), replace);
+  EXPECT_EQ(Json::parse(std::ifstream(out / "suite.json"))["settings"],
+            Json::parse(R"(["lidar.range_max=9"])"));
+  EXPECT_NE(read_file(out / "suite.md")->find("Set on top of the scenario: `lidar.range_max=9`."),
+            std::string::npos);
+  EXPECT_FALSE(run_suite(with("lidar.range_max=8"), options_for(out), keep_going));
+  EXPECT_TRUE(run_suite(with("lidar.range_max=9"), options_for(out), keep_going));
+}
+
+TEST_F(SuiteRuns, AreCompleteWithAnEstimatorThatFailed) {
+  const JobResult done{.scores = Json::object(), .sequence = Json::object()};
+  const JobResult failed{.outcome = JobOutcome::kFailed, .message = "add_legs: no"};
+  const std::vector<LabelledResult> results = {{"leg", done}, {"mine", failed}};
+  const Json scores = record_of("walk", 1, results).scores;
+  EXPECT_EQ(scores["complete"], true) << "the run reached its end";
+  EXPECT_EQ(scores["failures"],
+            Json::parse(R"([{"estimator": "mine", "message": "add_legs: no"}])"));
+  EXPECT_EQ(record_of("walk", 1, results, false).scores["complete"], false);
+}
+
 TEST_F(SuiteRuns, CheckTheExpectationsOverTheirSeeds) {
   std::vector<ScenarioFile> scenarios = two_walks();
   scenarios[0].scenario->expect = {{"aims", "success", kNoLimit, 1.0, ExpectationStatistic::kMean},
@@ -211,32 +248,66 @@ TEST(Families, StateTheIntervalOfTheSuccessRate) {
   EXPECT_NEAR(none.success_interval.high.value(), 0.1611, 5e-5) << "Newcombe 1998: 0 of 20";
 }
 
-TEST(SuccessPairs, CountWhereOneAloneIsASuccessOverAllScenarios) {
+/// A suite of two scenarios; a run of that seed of `aims` and `lio` is a success where these say
+/// so.
+Suite suite_of_pairs(int seeds, const std::function<bool(bool first_scenario, int seed)>& aims,
+                     const std::function<bool(bool first_scenario, int seed)>& lio) {
   Suite suite;
-  for (const char* name : {"first", "second"}) {
+  for (const bool first : {true, false}) {
     SuiteCase each;
-    each.scenario.name = name;
+    each.scenario.name = first ? "first" : "second";
     each.scenario.run = {"aims", "lio"};
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (int seed = 1; seed <= seeds; ++seed) {
       RunRecord run;
-      run.seed = seed;
-      // Of 8 sequences lio loses 7 that aims keeps, and keeps one that aims loses.
-      const bool odd = each.scenario.name == "first" && seed == 1;
-      run.scores["estimators"]["aims"] = {{"success", !odd}};
-      run.scores["estimators"]["lio"] = {{"success", odd}};
+      run.seed = static_cast<std::uint64_t>(seed);
+      run.scores["estimators"]["aims"] = {{"success", aims(first, seed)}};
+      run.scores["estimators"]["lio"] = {{"success", lio(first, seed)}};
       each.runs.push_back(std::move(run));
     }
     suite.cases.push_back(std::move(each));
   }
-  const auto pairs = success_pairs(suite);
+  return suite;
+}
+
+// Two scenarios of one seed have the same sensors: that is no more evidence than one.
+TEST(SuccessPairs, CountSeedsNotTheirScenarios) {
+  const auto always = [](bool, int) { return true; };
+  const auto never = [](bool, int) { return false; };
+  const auto pairs = success_pairs(suite_of_pairs(3, always, never));
   ASSERT_EQ(pairs.size(), 1U);
-  EXPECT_EQ(pairs[0].sequences, 8U);
-  EXPECT_EQ(pairs[0].tests[0].only_first, 7U);
-  EXPECT_EQ(pairs[0].tests[0].only_second, 1U);
-  EXPECT_NEAR(pairs[0].tests[0].p, 0.0703, 5e-5) << "Fagerland et al. 2013";
-  EXPECT_EQ(success_pairs_table(suite, false).rows.at(0).at(4), "0.0703");
-  const SuccessRate rate = success_rate(suite.cases[0].runs, "aims");
-  EXPECT_EQ(rate.text(), "3/4 (30-95 %)");
+  const SuccessTest& test = pairs[0].tests[0];
+  EXPECT_EQ(test.sequences, 6U);
+  EXPECT_EQ(test.seeds, 3U);
+  EXPECT_EQ(test.only_first, 6U);
+  EXPECT_EQ(test.by_seed.only_first, 3U);
+  EXPECT_NEAR(test.by_seed.p, 2.0 / 8.0, 1e-12) << "of sequences it were 2 / 64";
+}
+
+TEST(SuccessPairs, OfASeedCountTheOneWithMoreSuccesses) {
+  // Seed 1: one each, which decides nothing; seed 2: aims alone once, both once; seed 3: lio twice.
+  const auto aims = [](bool first, int seed) { return seed == 1 ? first : seed == 2; };
+  const auto lio = [](bool first, int seed) {
+    return seed == 1 ? !first : seed == 2 ? first : true;
+  };
+  const Suite suite = suite_of_pairs(3, aims, lio);
+  const SuccessTest test = success_pairs(suite).at(0).tests[0];
+  EXPECT_EQ(test.only_first, 2U);
+  EXPECT_EQ(test.only_second, 3U);
+  EXPECT_EQ(test.by_seed.only_first, 1U);
+  EXPECT_EQ(test.by_seed.only_second, 1U);
+  EXPECT_EQ(success_pairs_table(suite, false).rows.at(0).at(5), "1, 1");
+}
+
+TEST(SuccessPairs, OfOneScenarioAreMcNemarsTest) {
+  Suite suite = suite_of_pairs(
+      8, [](bool, int seed) { return seed != 1; }, [](bool, int seed) { return seed == 1; });
+  suite.cases.pop_back();
+  const SuccessTest test = success_pairs(suite).at(0).tests[0];
+  EXPECT_EQ(test.by_seed.only_first, 7U);
+  EXPECT_EQ(test.by_seed.only_second, 1U);
+  EXPECT_NEAR(test.by_seed.p, 0.0703, 5e-5) << "Fagerland et al. 2013";
+  EXPECT_EQ(success_pairs_table(suite, false).rows.at(0).at(6), "0.0703");
+  EXPECT_EQ(success_rate(suite.cases[0].runs, "aims").text(), "7/8 (53-98 %)");
 }
 
 TEST(Families, OfOneLevelAreNone) {

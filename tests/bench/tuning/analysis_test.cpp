@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/tuning/effect.hpp"
+#include "bench/tuning/response_summary.hpp"
 #include "bench/tuning/sensitivity.hpp"
 #include "bench/tuning/slice.hpp"
 #include "core/random.hpp"
@@ -165,6 +167,67 @@ TEST(BestPoint, NeedsAScore) {
   EXPECT_NE(best.error().message.find("'ate_yaw_m'"), std::string::npos);
 }
 
+TEST(BestPoint, AreTheDefaultsWhereNoPointIsBetter) {
+  const auto ranges = ranges_of({"a=0:6:4"});
+  const auto table = table_of(ranges, {3.0}, design(DesignKind::kGrid, ranges, 0, 1), 3,
+                              [](const std::vector<double>& point, const ResponseCase&) {
+                                return 1.0 + 0.001 * std::abs(point[0] - 3.0);
+                              });
+  const auto best = best_point(table, absolute());
+  ASSERT_TRUE(best);
+  EXPECT_TRUE(best->is_default());
+  EXPECT_EQ(best->values, table.defaults);
+  const std::string text = response_markdown(table, absolute());
+  EXPECT_NE(text.find("no point is better than the defaults: a 3 as by default"), std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("Reduction"), std::string::npos) << text;
+}
+
+TEST(BestPoint, KeepsTheDefaultOfAParameterWithoutEffect) {
+  const auto ranges = ranges_of({"a=0:6:4", "inert=0:0.2:3"});
+  const auto table = table_of(ranges, {3.0, 0.05}, design(DesignKind::kGrid, ranges, 0, 1), 3,
+                              [](const std::vector<double>& point, const ResponseCase&) {
+                                return 1.0 + std::abs(point[0] - 2.0);
+                              });
+  const auto best = best_point(table, absolute());
+  ASSERT_TRUE(best);
+  EXPECT_EQ(best->without_effect, (std::vector<bool>{false, true}));
+  EXPECT_EQ(best->between[1], Interval{});
+  const std::string text = response_markdown(table, absolute());
+  EXPECT_NE(text.find("a 2 instead of 3, inert 0.05 as by default (no effect measured)"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("| no effect measured |"), std::string::npos) << text;
+}
+
+TEST(Effect, BelowTheScatterOfSeedsResolvesNoIndex) {
+  const auto ranges = ranges_of({"a=0:1:4", "b=0:1:4"});
+  const auto of = [&](double effect, double noise, int seeds) {
+    return table_of(ranges, {0.5, 0.5}, design(DesignKind::kGrid, ranges, 0, 1), seeds,
+                    [=](const std::vector<double>& point, const ResponseCase& on) {
+                      RandomStream random =
+                          rng(on.seed, fmt::format("{} {} {}", point[0], point[1], on.scenario));
+                      return std::exp(effect * point[0] + noise * random.normal());
+                    });
+  };
+  const auto noise = sensitivity_of(of(0.0, 0.01, 4), absolute());
+  ASSERT_TRUE(noise);
+  EXPECT_TRUE(noise->of_grid);
+  EXPECT_GT(noise->effect.p.value(), 0.05);
+  EXPECT_FALSE(noise->is_resolved());
+  EXPECT_NE(response_markdown(of(0.0, 0.01, 4), absolute()).find("| not resolved | not resolved |"),
+            std::string::npos);
+  const auto small = sensitivity_of(of(0.03, 0.001, 4), absolute());
+  ASSERT_TRUE(small);
+  EXPECT_TRUE(small->is_resolved()) << "3 %, of which every seed is sure";
+  EXPECT_LE(small->effect.p.value(), 0.05);
+  EXPECT_FALSE(effect_of(of(0.03, 0.0, 1), absolute()).is_resolved()) << "one seed";
+  EXPECT_TRUE(effect_of(of(0.3, 0.0, 1), absolute()).is_resolved());
+  const Effect none = effect_of(of(0.0, 0.0, 2), absolute());
+  EXPECT_TRUE(none.is_none());
+  EXPECT_NE(text_of(none).find("no effect was measured"), std::string::npos);
+}
+
 TEST(Sensitivity, TellsWhichParameterDoesNotMatter) {
   const auto ranges = ranges_of({"a=0:6", "b=log(1,100)", "inert=0:1"});
   const auto table =
@@ -192,8 +255,8 @@ TEST(Sensitivity, OfNoiseTrustsNothing) {
 }
 
 TEST(Sensitivity, OfAPartOfAGridIsThatOfTheWhole) {
-  // ln = 2 a + 3 b with a, b = -1, 0, 1 and c without effect: 4 and 9 parts of 13, on the nine points
-  // of a Latin square.
+  // ln = 2 a + 3 b with a, b = -1, 0, 1 and c without effect: 4 and 9 parts of 13, on the nine
+  // points of a Latin square.
   const auto ranges = ranges_of({"a=-1:1:3", "b=-1:1:3", "c=0:2:3"});
   std::vector<std::vector<double>> square;
   for (int a = 0; a < 3; ++a) {

@@ -80,6 +80,7 @@ TEST(FailedRunsOfTuning, OfAllPointsSayNothingAboutParameters) {
   const auto none = sensitivity_of(table, Objective());
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().message, "every run diverged or failed");
+  EXPECT_FALSE(best_point(table, Objective())) << "no value is better than another";
   EXPECT_EQ(verdict_of(paired_gain(table, Objective(), 0)), Verdict::kUndecided);
   table.runs.back().back() = {0.1};
   EXPECT_FALSE(all_diverged(table));
@@ -131,7 +132,8 @@ TEST(HeldOutVerdict, DoesNotDependOnTheOrderOfTheSequences) {
   }
   const PairedGain gain = paired_gain(table, Objective(), 0);
   ASSERT_TRUE(gain.interval.low);
-  EXPECT_EQ(measured_text(gain), "median ATE yaw 0.305 -> 0.29 m, diverged runs 0 -> 0 of 20");
+  EXPECT_EQ(measured_text(gain),
+            "median ATE yaw 0.305 -> 0.29 m, mean change -0.015 m, diverged runs 0 -> 0 of 20");
   ResponseTable reversed = table;
   std::ranges::reverse(reversed.cases);
   std::ranges::reverse(reversed.default_runs);
@@ -140,6 +142,39 @@ TEST(HeldOutVerdict, DoesNotDependOnTheOrderOfTheSequences) {
   EXPECT_EQ(same.p, gain.p);
   EXPECT_EQ(same.interval.low, gain.interval.low);
   EXPECT_EQ(same.interval.high, gain.interval.high);
+}
+
+/// Eight seeds on which the score falls from 0.1 m by so much, a little less on each next one.
+ResponseTable falls_by(double gain) {
+  ResponseTable table;
+  table.ranges = {{.key = "a", .low = 0.0, .high = 1.0}};
+  table.defaults = {0.5};
+  table.points = {{1.0}};
+  table.runs = {{}};
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    table.cases.push_back({"corridor", "", seed});
+    table.default_runs.push_back({0.1, false});
+    table.runs[0].push_back({0.1 - gain * (1.0 - 0.01 * static_cast<double>(seed)), false});
+  }
+  return table;
+}
+
+// The rule of `aims study compare`: 5 %, and 1 cm of an ATE.
+TEST(HeldOutVerdict, NeedsAGainThatMatters) {
+  const PairedGain small = paired_gain(falls_by(0.009), Objective(), 0);
+  EXPECT_TRUE(is_significant(small));
+  EXPECT_TRUE(is_small(small)) << "8.6 %, but less than 1 cm";
+  EXPECT_EQ(verdict_of(small), Verdict::kDoNotUse);
+  EXPECT_NE(verdict_text(small).find("too small to matter"), std::string::npos);
+  EXPECT_NE(verdict_text(small).find("mean change -0.0086 m"), std::string::npos);
+  EXPECT_EQ(front_verdict_of(std::vector{small}), FrontVerdict::kNoDifference);
+  EXPECT_EQ(verdict_of(paired_gain(falls_by(0.012), Objective(), 0)), Verdict::kUseThem);
+  PairedGain few = small;
+  few.p = 0.06;
+  EXPECT_NE(verdict_text(few).find("the gain so far is too small to matter"), std::string::npos);
+  ResponseTable saved = falls_by(0.009);
+  saved.default_runs[0].diverged = true;
+  EXPECT_FALSE(is_small(paired_gain(saved, Objective(), 0))) << "a run less diverges";
 }
 
 TEST(HeldOutVerdict, IsUndecidedWhereTheTestCannotConfirmTheInterval) {

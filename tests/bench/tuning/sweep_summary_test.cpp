@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/tuning/point_table.hpp"
 #include "estimator/degeneracy/degeneracy.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -107,6 +108,26 @@ TEST(SweepReport, OneUnitIsBothTheUntunedOneAndAPointOfTheGrid) {
   ASSERT_EQ(table.points.size(), 13U);
   EXPECT_EQ(table.points.back(), table.defaults);
   EXPECT_EQ(table.runs.back()[1].value, table.default_runs[1].value);
+}
+
+TEST(SweepReport, ListsTheDefaultsOnceWhereTheyAreAPointOfTheGrid) {
+  const auto responses = sweep_responses(sweep_over_eta(true), "ate_yaw_m");
+  ASSERT_TRUE(responses);
+  const TextTable table = point_table(*responses, Objective());
+  EXPECT_EQ(table.rows.size(), 13U);
+  EXPECT_EQ(table.rows[0][0], "aims (default)");
+}
+
+TEST(SweepReport, KeepsTheLabelOfAnEstimator) {
+  MergedSweep sweep = sweep_over_eta(true);
+  sweep.plans = {
+      "params: [\"degeneracy.eta=0:6:13\"]\nscenarios: [corridor]\n"
+      "estimators: [slow=aims+degeneracy.alpha=0.5]\n"};
+  for (MergedJob& job : sweep.jobs) job.file["settings"]["degeneracy.alpha"] = "0.5";
+  const auto responses = sweep_responses(sweep, "ate_yaw_m");
+  ASSERT_TRUE(responses) << responses.error().message;
+  ASSERT_EQ(responses->size(), 1U);
+  EXPECT_EQ(responses->front().estimator, "slow=aims+degeneracy.alpha=0.5");
 }
 
 TEST(SweepReport, KnowsWhatScenariosHaveOfVariedKeysOfTheirOwn) {

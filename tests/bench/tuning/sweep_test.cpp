@@ -129,7 +129,8 @@ class Sweep : public ::testing::Test {
   }
 
   Result<JobRun> sweep() {
-    return run_jobs({jobs_, shard_, plan_text(plan_), force_}, options_, keep_going);
+    return run_jobs({.jobs = jobs_, .shard = shard_, .plan = plan_text(plan_), .force = force_},
+                    options_, keep_going);
   }
 
   void expect_refused(const std::string& part) {

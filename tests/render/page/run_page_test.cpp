@@ -44,7 +44,7 @@ TEST_F(RunPage, HoldsTheScoresAndTheConfigurationAsTheFilesHaveThem) {
   EXPECT_EQ(page.json["scores"],
             nlohmann::json::parse(testing::content(folder_.path() / "run" / "scores.json")));
   EXPECT_EQ(page.json["config_yaml"], testing::content(folder_.path() / "run" / "config.yaml"));
-  EXPECT_EQ(page.json["command"], "aims run config.yaml --seed 7");
+  EXPECT_EQ(page.json["command"], "aims run config.yaml --seed 7 --out again");
   EXPECT_EQ(page.json["scenario"]["name"], "made_up");
   EXPECT_EQ(page.json["notes"].size(), 0U) << page.json["notes"];
 }

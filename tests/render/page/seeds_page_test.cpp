@@ -58,6 +58,24 @@ TEST(SeedsPage, IsWrittenAfterThePagesOfItsSeeds) {
   EXPECT_TRUE(fs::exists(folder.path() / "page.html"));
 }
 
+TEST(SeedsPage, SaysWhoFailedAndWhatWasSet) {
+  const TemporaryFolder folder;
+  write_seeds(folder.path(), {1, 2});
+  const Json summary = Json::parse(
+      R"({"complete": false, "settings": ["lidar.columns=90"], "failures": [{"scenario": "made_up",
+          "seed": 2, "estimator": "mine", "message": "no"}], "estimators": {}})");
+  testing::put(folder.path() / "summary.json", summary.dump());
+  auto page = seeds_page(folder.path(), {});
+  ASSERT_TRUE(page) << page.error().message;
+  for (const char* key : {"complete", "settings", "failures"}) {
+    EXPECT_EQ(page->json["suite"][key], summary[key]) << key;
+  }
+  testing::put(folder.path() / "summary.json", "{");
+  page = seeds_page(folder.path(), {});
+  ASSERT_TRUE(page) << page.error().message;
+  EXPECT_EQ(page->json["notes"].size(), 1U) << page->json["notes"];
+}
+
 TEST(SeedsPage, CarriesTheStylesOfAllPages) {
   const TemporaryFolder folder;
   write_seeds(folder.path(), {1, 2});

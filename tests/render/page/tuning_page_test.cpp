@@ -349,7 +349,8 @@ TEST(TuningPage, AFinishedTuningTellsEachPointsGeneration) {
       "point,generation,degeneracy.eta,degeneracy.kappa,objective.0\n0,0,2,20,1\n1,3,1,10,0.5\n");
   const DecodedPage page = page_of(folder.path());
   EXPECT_EQ(page.f32(page.json["estimators"][0]["points"]["generation"]),
-            (std::vector<float>{3.0F, 0.0F}));
+            (std::vector<float>{0.0F, 3.0F}))
+      << "points are numbered as in tune.csv";
 }
 
 TEST(TuningPage, HostileScenariosArriveAsTheyAre) {

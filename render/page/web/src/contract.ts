@@ -127,6 +127,8 @@ export interface CloudMap {
 export interface Health {
   worst: string;
   healthy_s: number;
+  /** Of it, after its error exceeded the limit of a success. */
+  healthy_while_wrong_s?: Maybe;
   degraded_s: number;
   invalid_s: number;
   reasons: string;
@@ -187,12 +189,20 @@ export interface Body {
   height: number;
 }
 
+/** An estimator that failed; the message may have several lines. */
+export interface Failure {
+  estimator?: string;
+  message?: string;
+}
+
 export interface RunPayload extends PagePayload {
   kind: "run";
   /** What could not be read. */
   notes?: string[] | null;
   /** Assumptions about a recording that may decide its result. */
   warnings?: string[] | null;
+  /** Estimators that failed. */
+  failures?: Failure[] | null;
   /** Every stamp is in seconds after this one [s]. */
   t0_s?: Maybe;
   scenario: {

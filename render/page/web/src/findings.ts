@@ -53,6 +53,13 @@ function listed(names: string[]): string {
   return `${names.slice(0, -1).join(", ")} and ${names[names.length - 1]}`;
 }
 
+/** Those that fail, too: by name if they are few. */
+function moreText(list: Finding[]): string[] {
+  if (list.length === 0) return [];
+  const names = list.length <= 3 ? listed(list.map((each) => each.name)) : `${list.length} more`;
+  return [`${names} ${list.length === 1 ? "fails" : "fail"}, too`];
+}
+
 /** What constrains the axis where an estimate is lost. */
 function place(returns: number | null): string {
   if (returns === null) return "";
@@ -106,7 +113,7 @@ export function finding(list: Finding[], route: Route): string {
     .sort((a, b) => a.percent! - b.percent!);
   const bad = losers(list);
   const shown = bad.slice(0, 2).map((each) => lossText(each, route));
-  if (bad.length > 2) shown.push(`${bad.length - 2} more fail`);
+  shown.push(...moreText(bad.slice(2)));
   const loss = shown.length > 0 ? `; ${shown.join("; ")}` : "";
   if (good.length === 0) return `No estimator keeps ${what}${loss}.`;
   const limit = Math.max(kAlike, kFactor * good[0]!.percent!);
@@ -126,7 +133,7 @@ function withoutLengths(list: Finding[]): string {
   const good = list.filter((each) => each.success && isNumber(each.ate)).sort((a, b) => a.ate! - b.ate!);
   const failed = list.filter((each) => !each.success);
   const texts = failed.slice(0, 2).map((each) => each.aside ? asideText(each, "") : `${each.name} fails`);
-  if (failed.length > 2) texts.push(`${failed.length - 2} more fail`);
+  texts.push(...moreText(failed.slice(2)));
   const loss = texts.length > 0 ? `; ${texts.join("; ")}` : "";
   if (good.length === 0) return failed.length > 0 ? `No estimator stays near the truth from its start on${loss}.` : "";
   return `${good[0]!.name} stays nearest to the truth, ATE ${formatNumber(good[0]!.ate, 2)} m${loss}.`;

@@ -37,3 +37,8 @@ export function formatTime(seconds: unknown): string {
   const rest = ((tenths % 600) / 10).toFixed(1).padStart(4, "0");
   return `${seconds < 0 ? "−" : ""}${minutes}:${rest}`;
 }
+
+/** Of a message of several lines. */
+export function firstLine(message: unknown): string {
+  return typeof message === "string" ? message.split("\n", 1)[0]! : "";
+}

@@ -53,5 +53,8 @@ test("ticks of a logarithmic axis are at least two and no more than asked for an
 
 test("a linear axis has ticks on a phone, too", () => {
   assert.deepEqual(labels([-0.3, 8.3], false, 4), ["0", "2", "4", "6", "8"]);
+  const whole = ([low, high]) => axis([low, high], false, 10, true).ticks.map(({ label }) => label);
+  assert.deepEqual(whole([4.96, 6.04]), ["5", "6"], "levels are whole numbers");
+  assert.deepEqual(whole([0.8, 9.2]), ["1", "2", "3", "4", "5", "6", "7", "8", "9"]);
   assert.deepEqual(labels([0, 78.6], false, 6), ["0", "20", "40", "60"]);
 });

@@ -89,6 +89,15 @@ test("the sentence names who keeps the length, who loses it where, and who does 
   );
 });
 
+test("those that fail are named while they are few", () => {
+  const good = { name: "good", success: true, percent: 0.1, worst: null, signed: null, ate: 0.1, loss: null, aside: null, returns: null, healthy: true };
+  const bad = (name) => ({ ...good, name, success: false, percent: 50, ate: 9 });
+  const route = { corridor: true, length: 100 };
+  assert.match(page.finding([good, bad("a"), bad("b"), bad("c")], route), /c fails, too\.$/);
+  assert.match(page.finding([good, ..."abcd".split("").map(bad)], route), /c and d fail, too\.$/);
+  assert.match(page.finding([good, ..."abcdef".split("").map(bad)], route), /4 more fail, too\.$/);
+});
+
 test("a failure in height or sideways is named, though the length is right", () => {
   const route = { corridor: true, length: 100 };
   const one = { success: false, worst: null, signed: -0.96, ate: 3, loss: null, returns: null, healthy: false };

@@ -67,6 +67,8 @@ function failed() {
     { estimator: "aims", score: "ate_m", min: null, max: 0.5, value: 0.2, holds: true },
     { estimator: "lio", score: "ate_m", min: null, max: 0.1, value: 0.4, holds: false },
   ];
+  page.failures = [{ estimator: "mine", message: "boom <b>\nsecond line" }];
+  page.scores.estimators.lio.health = { worst: "degraded", healthy_while_wrong_s: 98.9 };
   return page;
 }
 

@@ -187,7 +187,8 @@ async function assertTablesEqual(page, scores) {
     near(cells["max m"], own.max_error_m, `${name} max`);
     near(cells["RPE 10 m m"], own.rpe_10m?.translation_m, `${name} RPE`);
     near(cells["longitudinal m"], own.drift_m?.rmse?.longitudinal, `${name} longitudinal drift`);
-    near(cells["heading, start rad"], own.drift_m?.rmse?.heading_rad, `${name} drift heading`);
+    const turned = own.drift_m?.rmse?.heading_rad;
+    near(cells["heading, start mrad"], Number.isFinite(turned) ? 1000 * turned : null, `${name} drift heading`);
   }
   for (const { name, cells } of (await tableCells(page, '[data-table="times"]')) ?? []) {
     const own = scores.estimators[name];

@@ -63,6 +63,11 @@ describe(
         await page.locator('[data-table="paper"] tbody td[data-label="Success"]').allInnerTexts(),
         Array(4).fill("invalid run"),
       );
+      assert.deepEqual(await page.locator("[data-failures] li").allInnerTexts(), ["mine: boom <b>"]);
+      assert.doesNotMatch(await page.innerText(".page-head"), /interrupted/);
+      assert.match(await page.innerText('[data-table="paper"]'), /degraded; healthy for 98\.9 s while wrong/);
+      assert.match(await page.innerText("#details"), /From the truth: /);
+      assert.doesNotMatch(await page.innerText("#results"), /From the truth: /);
       await context.close();
       const held = await open(browser, files.run);
       assert.match(await held.page.innerText("[data-verdict]"), /^lio and aims keep .* within [^]*3 of 4 estimators succeeded\. tfs diverged 181 s after the start\./);

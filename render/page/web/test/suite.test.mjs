@@ -33,6 +33,16 @@ test("the matrix shows the suite's own numbers", { skip }, async () => {
   assert.deepEqual(troubles, []);
 });
 
+test("what was set and who failed stand at the head", { skip }, async () => {
+  const data = suite();
+  data.suite.settings = ["lidar.columns=90"];
+  data.suite.failures = [{ scenario: "severity_3", seed: 2, estimator: "mine", message: "boom\nsecond line" }];
+  const { page } = await pages.show(data);
+  assert.equal(await page.innerText("[data-settings]"), "Set on top of the scenario: lidar.columns=90");
+  assert.match(await page.innerText("[data-failures]"), /One failure: mine\./);
+  assert.match(await page.innerText("#failures"), /severity_3, seed 2, mine: boom$/);
+});
+
 test("a diverged run is stated in words, not by colour alone", { skip }, async () => {
   const { page } = await pages.show(suite());
   assert.match(await cell(page, "severity_3", "b").innerText(), /✕ 3 of 3 diverged/);
@@ -240,12 +250,12 @@ test("one scenario over its seeds leads with a sentence, its table and box plots
   assert.deepEqual(troubles, []);
 });
 
-test("successes have their interval, pairs of estimators McNemar's test", { skip }, async () => {
+test("successes have their interval, pairs of estimators a sign test over seeds", { skip }, async () => {
   const { page, troubles } = await pages.show(suite());
   await page.locator("#seeds").getByLabel("Scenario").selectOption("severity_3");
   assert.match(await page.locator('#seeds tr[data-row="a"]').innerText(), /3 of 3 \(44–100 %\)/);
   assert.match(await page.locator('#seeds tr[data-row="b"]').innerText(), /0 of 3 \(0–56 %\)/);
-  assert.match(await page.locator('#pairs tr[data-row="a/b"]').innerText(), /^a, b\s+12\s+3\s+0\s+0\.250\s+0\s+0\s+1\.00$/);
+  assert.match(await page.locator('#pairs tr[data-row="a/b"]').innerText(), /^a, b\s+12\s+6\s+4\s+0\s+3, 0\s+0\.250\s+0\s+0\s+0, 0\s+1\.00$/);
   assert.deepEqual(troubles, []);
 });
 

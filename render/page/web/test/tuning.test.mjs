@@ -43,10 +43,22 @@ test("the held-out verdict leads, and says when there is none", { skip }, async 
 
 test("indices that a fit does not support are not resolved", { skip }, async () => {
   const data = tuning();
-  Object.assign(data.estimators[0].analyses[0].sensitivity, { of_grid: false, resolved: false, fit: { terms: 4, error: 0.3, explained: 0.65 } });
+  Object.assign(data.estimators[0].analyses[0].sensitivity, { of_grid: false, has_indices: false, resolved: false, fit: { terms: 4, error: 0.3, explained: 0.65 } });
   const { page } = await pages.show(data);
   assert.equal(await page.locator("#sensitivity .sobol-row").count(), 0);
   assert.match(await page.locator("#sensitivity").innerText(), /Not resolved.*90\.0 %[^]*65\.0 %/);
+});
+
+test("an effect below the scatter of seeds, defaults that nothing beats and parameters without effect are said", { skip }, async () => {
+  const data = tuning();
+  const analysis = data.estimators[0].analyses[0];
+  Object.assign(analysis.sensitivity, { resolved: false, negligible: [false, false] });
+  analysis.effect = "The objective lies between 1 and 1.002 at the 12 points (0.16 %): not resolved, since seeds scatter as much (p = 0.65).";
+  Object.assign(analysis.best, { is_default: true, without_effect: [false, true], values: [3, 12.6], distance: [0, 0], text: "no point is better than the defaults: ..." });
+  const { page } = await pages.show(data);
+  assert.match(await page.locator("#best p").first().innerText(), /^Keep the defaults: no point is better than the defaults/);
+  assert.match(await page.locator("#best table").innerText(), /no effect/);
+  assert.match(await page.locator("#sensitivity").innerText(), /Not resolved\. The objective lies between 1 and 1\.002/);
 });
 
 test("markers are measurements alone, a fit is a thin line without markers", { skip }, async () => {

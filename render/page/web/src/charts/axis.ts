@@ -11,8 +11,8 @@ export interface Axis {
   ticks: { value: number; label: string }[];
 }
 
-function linearTicks(low: number, high: number, most: number): number[] {
-  const rough = (high - low) / Math.max(1, most);
+function linearTicks(low: number, high: number, most: number, whole = false): number[] {
+  const rough = Math.max(whole ? 1 : 0, (high - low) / Math.max(1, most));
   const power = 10 ** Math.floor(Math.log10(rough));
   // A tick or two more than `most` beat a step that is twice as wide.
   const step = [1, 2, 5, 10].map((each) => each * power).find((each) => each >= 0.8 * rough) ?? 10 * power;
@@ -53,14 +53,14 @@ export function extent(values: Iterable<number>, log: boolean): [number, number]
   return [low - air, high + air];
 }
 
-/** An axis between those ends with about `most` ticks. */
-export function axis(ends: [number, number], log: boolean, most: number): Axis {
+/** An axis between those ends with about `most` ticks; `whole`: of whole numbers, such as levels. */
+export function axis(ends: [number, number], log: boolean, most: number, whole = false): Axis {
   const [low, high] = ends;
   const at = log
     ? (value: number) =>
         value > 0 ? Math.log(value / low) / Math.log(high / low) : NaN
     : (value: number) => (value - low) / (high - low);
-  const values = log ? logTicks(low, high, most) : linearTicks(low, high, most);
+  const values = log ? logTicks(low, high, most) : linearTicks(low, high, most, whole);
   return { log, low, high, at, ticks: values.map((value) => ({ value, label: tickLabel(value) })) };
 }
 

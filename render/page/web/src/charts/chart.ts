@@ -47,6 +47,8 @@ export interface ChartOptions {
   yLabel: string;
   xLog?: boolean;
   yLog?: boolean;
+  /** Ticks of x at whole numbers alone. */
+  xWhole?: boolean;
   xEnds?: [number, number];
   yEnds?: [number, number];
   height?: number;
@@ -68,7 +70,7 @@ function axesOf(lines: Line[], options: ChartOptions): Axes {
   const marks = lines.flatMap((line) => line.marks);
   const ys = marks.flatMap(({ y, low, high }) => [y, low, high].filter(isNumber));
   return {
-    x: { label: options.xLabel, log: xLog, ends: options.xEnds ?? extent(marks.map(({ x }) => x), xLog) },
+    x: { label: options.xLabel, log: xLog, ends: options.xEnds ?? extent(marks.map(({ x }) => x), xLog), whole: options.xWhole ?? false },
     y: { label: options.yLabel, log: yLog, ends: options.yEnds ?? extent(ys, yLog) },
   };
 }

@@ -9,6 +9,8 @@ export interface Scale {
   label: string;
   log: boolean;
   ends: [number, number];
+  /** Whole numbers alone. */
+  whole?: boolean;
 }
 
 const kSymbols: SymbolType[] = ["circle", "square", "triangle", "diamond", "wye", "star"];
@@ -30,7 +32,7 @@ interface Ticks {
 }
 
 function ticksOf(scale: Scale, most: number): Ticks {
-  const { ticks } = axis(scale.ends, scale.log, Math.max(2, most));
+  const { ticks } = axis(scale.ends, scale.log, Math.max(2, most), scale.whole ?? false);
   return { values: ticks.map(({ value }) => value), labels: ticks.map(({ label }) => label) };
 }
 

@@ -63,7 +63,7 @@ export function configSection(data: RunPayload): HTMLElement | null {
     "Configuration",
     ...(data.command
       ? [
-          h("p", { class: "soft" }, "The command that repeats this run:"),
+          h("p", { class: "soft" }, "The command that repeats this run, in the folder of its results:"),
           h(
             "div",
             { class: "command" },

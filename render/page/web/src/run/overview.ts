@@ -134,13 +134,15 @@ class ErrorChart {
   }
 }
 
+const kAlignments: Record<Alignment, string> = { heading: "start and fitted heading", start: "start alone" };
+
 function alignmentChoice(store: Store): HTMLElement {
   const select = h("select", {
     "data-control": "alignment",
     onchange: () => store.set({ alignment: select.value as Alignment }),
   },
-  h("option", { value: "heading", selected: store.state.alignment === "heading" }, "start and fitted heading"),
-  h("option", { value: "start", selected: store.state.alignment === "start" }, "start alone"));
+  ...Object.entries(kAlignments).map(([value, text]) =>
+    h("option", { value, selected: store.state.alignment === value }, text)));
   return h("label", {}, "aligned by ", select);
 }
 
@@ -155,7 +157,11 @@ export function overviewCharts(
 ): { errors: HTMLElement | null; plan: HTMLElement } | null {
   const path = truePath(data);
   const plan = h("div", {});
-  const drawPlan = () => plan.replaceChildren(planView(data, shownTracks(data, path, store)) ?? "");
+  const aligned = path ? h("p", { class: "soft", "data-aligned": true }) : null;
+  const drawPlan = () => {
+    if (aligned) aligned.textContent = `Estimates aligned by ${kAlignments[store.state.alignment]}.`;
+    plan.replaceChildren(planView(data, shownTracks(data, path, store)) ?? "", aligned ?? "");
+  };
   if (!path) {
     if (shownTracks(data, null, store).length === 0) return null;
     drawPlan();

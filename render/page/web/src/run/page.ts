@@ -14,7 +14,7 @@ import { cursorTimes, timeSpan } from "./series";
 import { keepInAddress, stateIn } from "./state_url";
 import { Store, type State } from "./store";
 import { timeline } from "./timeline";
-import { hintBox, verdictBox, warningBox } from "./verdict";
+import { failureBox, hintBox, verdictBox, warningBox } from "./verdict";
 import { viewCard } from "./view";
 
 function badge(text: string, kind: "good" | "bad" | "plain"): HTMLElement {
@@ -147,6 +147,7 @@ export function renderRun(root: HTMLElement, data: RunPayload): void {
   root.append(
     header(data),
     verdictBox(data),
+    failureBox(data) ?? "",
     warningBox(data) ?? "",
     hintBox(data) ?? "",
     (charts && visibility(data, store)) ?? "",

@@ -54,6 +54,17 @@ function score(title: string, unit: string, path: string[], hint?: string): Colu
   };
 }
 
+/** The column in thousandths of what the score has. */
+function milli(column: Column<Row>): Column<Row> {
+  return {
+    ...column,
+    value: (row) => {
+      const value = column.value(row);
+      return isNumber(value) ? 1000 * value : null;
+    },
+  };
+}
+
 const yawColumn = score(
   "ATE yaw", "m", ["ate_yaw_m"],
   "RMSE of position after alignment by heading and translation, which LiDAR-inertial odometry cannot observe");
@@ -87,6 +98,17 @@ function healthWord(worst: unknown): string {
   return worst === "starting" ? "never started" : String(worst ?? kNone);
 }
 
+/** Least time of being healthy while wrong that is said, as on the terminal [s]. */
+const kLeastUnnoticed = 1;
+
+/** Whether and how long it called itself healthy while its error exceeded the limit of a success; empty if not. */
+function unnoticedText(row: Row): string {
+  const seconds = at(row.scores, "health", "healthy_while_wrong_s");
+  if (isNumber(seconds) && seconds >= kLeastUnnoticed) return `healthy for ${formatFixed(seconds, 1)} s while wrong`;
+  const worst = at(row.scores, "health", "worst");
+  return row.scores !== undefined && !success(row) && worst === "healthy" ? "healthy, but wrong" : "";
+}
+
 /** What the estimator says of itself beside what the truth says of it. */
 const healthColumn: Column<Row> = {
   title: "Reports itself",
@@ -94,8 +116,10 @@ const healthColumn: Column<Row> = {
   value: (row) => String(at(row.scores, "health", "worst") ?? ""),
   show: (row) => {
     const worst = healthWord(at(row.scores, "health", "worst"));
-    if (success(row) || worst !== "healthy" || row.scores === undefined) return worst;
-    return h("span", { class: "unnoticed", title: "Its error exceeds the limit of a success" }, `${worst}, but wrong`);
+    const unnoticed = unnoticedText(row);
+    if (unnoticed === "") return worst;
+    const text = worst === "healthy" ? unnoticed : `${worst}; ${unnoticed}`;
+    return h("span", { class: "unnoticed", title: "Time for which it called itself healthy after its error exceeded the limit of a success" }, text);
   },
 };
 
@@ -104,6 +128,7 @@ function outcome(data: RunPayload, row: Row): string {
   if (data.scenario.robot?.valid === false) return "invalid run";
   const divergedAt = at(row.scores, "diverged_at_s");
   if (isNumber(divergedAt)) return `✕ at ${formatFixed(divergedAt - (data.t0_s ?? 0), 0)} s`;
+  if (at(row.scores, "diverged_reason") === "no_poses") return "no poses";
   return success(row) ? "yes" : "no";
 }
 
@@ -126,14 +151,14 @@ function errorTable(data: RunPayload, list: Row[]): HTMLElement {
       "RPE 10 m",
       "m",
       ["rpe_10m", "translation_m"],
-      "Relative pose error over 10 m travelled",
+      "Relative pose error over 10 m travelled; –: the path is below 20 m, the first piece begins after 10 m",
     ),
-    score("heading", "mrad", ["heading_error_mrad"], "RMSE of the heading after the alignment by heading"),
+    score("heading", "mrad", ["heading_error_mrad"], "RMSE of the yaw after the alignment by heading"),
     score("longitudinal", "m", ["drift_m", "rmse", "longitudinal"], "RMSE along the true heading"),
     score("lateral", "m", ["drift_m", "rmse", "lateral"], "RMSE across the true heading"),
     score("vertical", "m", ["drift_m", "rmse", "vertical"], "RMSE of the height"),
-    score("heading, start", "rad", ["drift_m", "rmse", "heading_rad"], "RMSE of the heading"),
-    score("tilt", "rad", ["drift_m", "rmse", "tilt_rad"], "RMSE of roll and pitch together"),
+    milli(score("heading, start", "mrad", ["drift_m", "rmse", "heading_rad"], "RMSE of the heading, aligned at the start")),
+    milli(score("tilt", "mrad", ["drift_m", "rmse", "tilt_rad"], "RMSE of roll and pitch together")),
   ];
   const known = scores.filter((column) => list.some((row) => column.value(row) !== null));
   return sortableTable(list, [nameColumn, ...known], {
@@ -306,7 +331,6 @@ export function leadSection(data: RunPayload): HTMLElement | null {
       h("div", { "data-table": "paper" }, paperTable(data, list)),
       expectationTable(data),
     ),
-    truthLine(data),
   );
 }
 
@@ -325,5 +349,6 @@ export function detailSection(data: RunPayload): HTMLElement | null {
       h("div", { "data-table": "times" }, timeTable(list)),
       healthTable(data),
     ),
+    truthLine(data),
   );
 }

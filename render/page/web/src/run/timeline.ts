@@ -96,7 +96,7 @@ function player(store: Store, button: HTMLElement): void {
 /** What is measured from outside, errors where there is a truth, or what the chosen estimator computes by itself. */
 function tabs(data: RunPayload, store: Store): HTMLElement {
   const names: [Tab, string][] = [
-    ["errors", data.truth ? "Errors over time" : "Over time"],
+    ["errors", data.truth ? "Errors over time, aligned by the start alone" : "Over time"],
     ["internals", "Internals of the estimator"],
   ];
   const buttons = names.map(([tab, text]) =>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** What came of the run, in sentences: validity, expectations, successes. */
-import type { RunPayload } from "../contract";
+import type { Failure, RunPayload } from "../contract";
 import { at, h, own } from "../dom";
 import { finding } from "../findings";
-import { formatFixed, formatNumber, isNumber } from "../format";
+import { firstLine, formatFixed, formatNumber, isNumber } from "../format";
 import { findingsOf } from "./findings_of";
 
 export type Mood = "good" | "bad" | "plain";
@@ -37,6 +37,10 @@ export function limitsOf({ min, max }: Expectation): string {
   ]
     .filter((part) => part !== "")
     .join(", ");
+}
+
+function failuresOf(data: RunPayload): Failure[] {
+  return Array.isArray(data.failures) ? data.failures : [];
 }
 
 function robotSentence(data: RunPayload): Sentence | null {
@@ -75,15 +79,17 @@ function successSentence(data: RunPayload): Sentence | null {
   const scores = Object.entries(own<object>(data.scores, "estimators") ?? {});
   if (scores.length === 0) return null;
   const start = data.t0_s ?? 0;
+  const unscored = failuresOf(data).filter(({ estimator }) => !scores.some(([name]) => name === estimator)).length;
   const failed = scores.filter(([, own]) => at(own, "success") !== true);
   const reasons = failed.map(([name, own]) => {
     const divergedAt = at(own, "diverged_at_s");
+    if (at(own, "diverged_reason") === "no_poses") return `${name} returned no pose`;
     return isNumber(divergedAt) ? `${name} diverged ${formatFixed(divergedAt - start, 0)} s after the start` : `${name} failed`;
   });
   return {
     mood: "plain",
     lead: "",
-    rest: `${scores.length - failed.length} of ${scores.length} estimators succeeded. ` +
+    rest: `${scores.length - failed.length} of ${scores.length + unscored} estimators succeeded. ` +
        (failed.length > 0 ? `${reasons.join(", ")}.` : ""),
   };
 }
@@ -120,6 +126,19 @@ export function warningBox(data: RunPayload): HTMLElement | null {
     { class: "banner", role: "alert", "data-warnings": warnings.length },
     h("strong", {}, "Assumed about this recording, and decisive for the result:"),
     h("ul", {}, ...warnings.map((each) => h("li", {}, each))),
+  );
+}
+
+/** Estimators that failed, each with the first line of its message; null without any. */
+export function failureBox(data: RunPayload): HTMLElement | null {
+  const failures = failuresOf(data);
+  if (failures.length === 0) return null;
+  return h(
+    "div",
+    { class: "banner", role: "alert", "data-failures": failures.length },
+    h("strong", {}, failures.length === 1 ? "One estimator failed:" : `${failures.length} estimators failed:`),
+    h("ul", {}, ...failures.map(({ estimator, message }) =>
+      h("li", {}, h("bdi", {}, estimator ?? ""), `: ${firstLine(message)}`))),
   );
 }
 

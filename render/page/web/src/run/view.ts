@@ -239,7 +239,7 @@ function readout(data: RunPayload, state: Readonly<State>): HTMLElement {
     { class: "readout" },
     data.truth ? item("truth", "truth", `${place(truth)} m`) : null,
     chosen ? item("estimate", "estimate", `${place(estimate)} m`) : null,
-    chosen && data.truth ? item("error", "error", `${formatNumber(error)} m`) : null,
+    chosen && data.truth ? item("error, aligned by the start alone,", "error", `${formatNumber(error)} m`) : null,
     returns
       ? item("equivalent returns", "returns", formatNumber(valueAt(returns, state.cursor)))
       : null,

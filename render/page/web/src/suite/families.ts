@@ -85,7 +85,7 @@ function breaksText(family: Family, names: string[]): string {
     if (!breaks) return null;
     return `${name} ${breaks.length > 0 ? breaks.join(" and ") : "none"}`;
   }).filter((each) => each !== null);
-  return `Breakdown levels: ${levels.join(", ")}. The breakdown level is the first one, counted from the mildest ` +
+  return `Breakdown level: ${levels.join(", ")}. An estimator breaks at the first level, counted from the mildest ` +
     `(${family.mildest_level}), at which more than half of the runs diverge or the median ATE yaw is over both twice that of the mildest and 0.5 % of the route's length.`;
 }
 
@@ -122,7 +122,8 @@ export function familySection(data: SuitePayload): HTMLElement | null {
           }) : null),
       chart(lines, {
         label: `${quantity.label} of each estimator over ${xLabel}; the table below has the numbers`,
-        xLabel, yLabel: quantity.label, xLog: overTruth, yLog: quantity.value !== "success_rate", height: 340,
+        xLabel, yLabel: quantity.label, xLog: overTruth,
+        xWhole: !overTruth && lines.every(({ marks }) => marks.every(({ x }) => Number.isInteger(x))), yLog: quantity.value !== "success_rate", height: 340,
         dodge: overTruth ? 0 : 5,
         ...(quantity.value === "success_rate" ? { yEnds: [-0.03, 1.05] as [number, number] } : {}),
         verticals: overTruth ? [] : [{ x: family.mildest_level, label: "mildest" }],

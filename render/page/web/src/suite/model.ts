@@ -52,12 +52,14 @@ export interface SuiteScenario {
   estimators: Record<string, EstimatorSummary>;
 }
 
-/** McNemar's exact test of two estimators on the sequences that both ran. */
+/** The successes of two estimators on the sequences that both ran. */
 export interface SuccessPair {
   first: string;
   second: string;
   sequences: number;
-  mcnemar: Record<string, { only_first: number; only_second: number; p: number }>;
+  seeds: number;
+  /** Per limit: sequences on which one alone succeeds, seeds on which one succeeds on more, sign test over seeds. */
+  tests: Record<string, { only_first: number; only_second: number; seeds_first: number; seeds_second: number; p: number }>;
 }
 
 export interface FamilyPoint {
@@ -218,7 +220,9 @@ export interface SuitePayload extends PagePayload {
     scenarios: SuiteScenario[];
     families?: Family[];
     success_pairs?: SuccessPair[];
-    failures?: { scenario?: string; seed?: Maybe; message?: string }[];
+    failures?: { scenario?: string; seed?: Maybe; estimator?: string; message?: string }[];
+    /** "key=value" on top of every scenario. */
+    settings?: string[];
   };
   headline: Headline[];
   runs: Run[];

@@ -5,6 +5,7 @@ import { choice } from "../charts/controls";
 import { seriesPaint } from "../charts/svg";
 import { h, section } from "../dom";
 import { formatFixed, formatNumber, isNumber, kNone } from "../format";
+import { seriesDash } from "../palette";
 import { estimatorsOf, firstScore, styleOf, titleOf, type Run, type SuitePayload } from "./model";
 
 /** Charts shown before the reader asks for all. */
@@ -56,11 +57,25 @@ export function worstFirst(runs: Run[], estimators: string[], score: string): Ru
     .map(({ run }) => run);
 }
 
+/** The dashes of the series' line as stripes: a variant has the colour of its estimator and other dashes. */
+function patternOf(index: number): string {
+  const dash = seriesDash(index);
+  if (dash.length === 0) return "none";
+  let at = 0;
+  const stops = dash.map((length, i) => {
+    const from = at;
+    at += length;
+    return `${i % 2 === 0 ? "transparent" : "var(--card)"} ${from}px ${at}px`;
+  });
+  return `repeating-linear-gradient(90deg, ${stops.join(", ")})`;
+}
+
 function barRow(bar: Bar, at: (value: number) => number): HTMLElement {
   const width = bar.value === null ? 0 : 4 + 96 * at(Math.abs(bar.value));
   const mark = h("i", { class: bar.diverged ? "small-bar diverged" : "small-bar" });
   mark.style.width = `${width.toFixed(1)}%`;
   mark.style.setProperty("--paint", seriesPaint(bar.index));
+  if (!bar.diverged) mark.style.setProperty("--pattern", patternOf(bar.index));
   const diverged = bar.at === null ? "✕ diverged" : `✕ at ${formatFixed(bar.at, 0)} s`;
   return h(
     "div",

@@ -3,6 +3,7 @@
 import "./suite.css";
 import { facts, notes } from "../charts/controls";
 import { h, section } from "../dom";
+import { firstLine, isNumber } from "../format";
 import { sortableTable } from "../table";
 import { themeButton } from "../theme";
 import { compareSection } from "./compare";
@@ -46,8 +47,29 @@ function expectationSection(data: SuitePayload): HTMLElement | null {
 function failureSection(data: SuitePayload): HTMLElement | null {
   const failures = data.suite.failures ?? [];
   if (failures.length === 0) return null;
-  return section("failures", "Failed to run", notes(failures.map((each) =>
-    `${each.scenario ?? ""}${each.seed === null || each.seed === undefined ? "" : `, seed ${each.seed}`}: ${each.message ?? ""}`)));
+  return section("failures", "Failed to run", notes(failures.map((each) => {
+    const seed = isNumber(each.seed) ? `, seed ${each.seed}` : "";
+    const estimator = each.estimator ? `, ${each.estimator}` : "";
+    return `${each.scenario ?? ""}${seed}${estimator}: ${firstLine(each.message)}`;
+  })));
+}
+
+/** Who failed, above the results that lack it; null for none. */
+function failureBanner(data: SuitePayload): HTMLElement | null {
+  const failures = data.suite.failures ?? [];
+  if (failures.length === 0) return null;
+  const names = [...new Set(failures.map((each) => each.estimator || each.scenario || ""))];
+  return h("div", { class: "banner", role: "alert", "data-failures": failures.length },
+    h("strong", {}, `${failures.length === 1 ? "One failure" : `${failures.length} failures`}: ${names.join(", ")}. `),
+    h("a", { href: "#failures" }, "Failed to run"));
+}
+
+/** What was set on top of the scenarios; null for nothing. */
+function settingsLine(data: SuitePayload): HTMLElement | null {
+  const settings = data.suite.settings ?? [];
+  if (settings.length === 0) return null;
+  return h("p", { "data-settings": settings.length }, "Set on top of the scenario: ",
+    ...settings.flatMap((each, i) => [i > 0 ? ", " : "", h("code", {}, each)]));
 }
 
 /** What stands above everything else when runs are invalid. */
@@ -76,7 +98,9 @@ export function renderSuite(root: HTMLElement, data: SuitePayload): void {
       ["aims", data.version], ["code", data.suite.code],
     ]),
     data.description ? h("p", { class: "soft" }, data.description) : "",
+    settingsLine(data) ?? "",
     ...(banner ? [banner] : []),
+    failureBanner(data) ?? "",
     seedsVerdict(data) ?? "",
     h("nav", { class: "contents", "aria-label": "Contents" }, ...sections.map((each) =>
       h("a", { href: `#${each.id}` }, each.querySelector("h2")?.textContent ?? each.id))),

@@ -17,6 +17,10 @@ export interface Parameter {
 
 export interface Best {
   values: number[];
+  /** No point is better than the defaults. */
+  is_default: boolean;
+  /** Of each parameter: points that differ in it alone have the same scores. */
+  without_effect: boolean[];
   /** The values beside the defaults, and which lies at an edge of its range. */
   text: string;
   between: Interval[];
@@ -38,6 +42,9 @@ export interface Sensitivity {
   of_grid: boolean;
   /** By an analysis of variance of a part of a grid. */
   of_part?: { explained: number; with_pairs: boolean };
+  /** From a grid or a fit. */
+  has_indices: boolean;
+  /** And the effect of all parameters is beyond the scatter of seeds. */
   resolved: boolean;
   /** Cross-validated R² from which on a fit supports indices. */
   least_explained: number;
@@ -92,6 +99,8 @@ export interface Analysis {
   /** Of each of the estimator's points; NaN while sequences are missing. */
   objectives: Numbers;
   best: Best | null;
+  /** How much the objective differs between points, and whether that is beyond the scatter of seeds. */
+  effect?: string;
   why_no_best?: string;
   held_out: HeldOut | null;
   sensitivity: Sensitivity | null;

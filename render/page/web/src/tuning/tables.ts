@@ -4,7 +4,7 @@ import { h } from "../dom";
 import { formatFixed, formatNumber, isNumber, kNone } from "../format";
 import { sortableTable, type Column } from "../table";
 import {
-  axisLabel, ends, pointsOf, type Analysis, type Point, type Sensitivity, type TunedEstimator, type TuningPayload, type SequenceChoice,
+  axisLabel, ends, pointsOf, type Analysis, type Best, type Point, type Sensitivity, type TunedEstimator, type TuningPayload, type SequenceChoice,
 } from "./model";
 
 export function percent(fraction: unknown): string {
@@ -16,7 +16,11 @@ function bracket(interval: [number, number] | null, scale = 1, unit = ""): strin
 }
 
 /** The values found and, of a tuning, what the held-out sequences say of them. */
-function verdict(values: string, analysis: Analysis, tuned: boolean): HTMLElement {
+function verdict({ text: values, is_default: keeps }: Best, analysis: Analysis, tuned: boolean): HTMLElement {
+  if (keeps) {
+    return h("p", { class: "verdict do-not-use", "data-verdict": "do not use" },
+      h("strong", {}, "Keep the defaults"), `: ${values}.`);
+  }
   if (!tuned) return h("p", {}, h("strong", {}, `Best values: ${values}.`));
   const held = analysis.held_out ?? { verdict: "undecided", text: "not validated: these values were not run on the held-out sequences" };
   return h("p", { class: `verdict ${held.verdict.replaceAll(" ", "-")}`, "data-verdict": held.verdict },
@@ -34,10 +38,11 @@ export function outcome(analysis: Analysis, tuned: boolean): HTMLElement {
     : " The defaults were not run on every sequence, so that nothing is compared with them.";
   const sure = analysis.seeds < 2 ? "One seed: no intervals."
     : `Intervals: 95 % bootstraps over ${analysis.seeds} seeds${analysis.seeds < 10 ? ", too narrow for so few seeds" : ""}.`;
-  return h("div", {}, verdict(best.text, analysis, tuned),
-    h("p", {}, `Objective: ${analysis.objective}. The best of ${analysis.points} points has an objective of `,
+  return h("div", {}, verdict(best, analysis, tuned),
+    h("p", {}, `Objective: ${analysis.objective}. ${best.is_default ? "The defaults have an objective of "
+      : `The best of ${analysis.points} points has an objective of `}`,
       h("b", { "data-best": best.objective }, formatNumber(best.objective)),
-      `${bracket(ends(best.objective_interval))}.${gain}`),
+      `${bracket(ends(best.objective_interval))}${best.is_default ? ", and no point less." : `.${gain}`}`),
     h("p", { class: "soft" }, sure +
       (analysis.incomplete > 0 ? ` ${analysis.incomplete} points are left out: some of their jobs are not done.` : "")));
 }
@@ -51,10 +56,14 @@ export function bestTable(own: TunedEstimator, analysis: Analysis): HTMLElement 
     { title: "parameter", value: ({ parameter }) => axisLabel(parameter) },
     { title: "range", value: ({ parameter }) => `${formatNumber(parameter.low)} to ${formatNumber(parameter.high)}${parameter.log ? ", log" : ""}` },
     { title: "default", value: ({ parameter }) => parameter.default },
-    { title: "best", value: ({ i }) => best.values[i], interval: ({ i }) => ends(best.between[i]) },
+    {
+      title: "best", value: ({ i }) => best.values[i], interval: ({ i }) => analysis.sensitivity?.negligible[i] ? null : ends(best.between[i]),
+      show: ({ i }) => best.without_effect[i] ? "no effect"
+        : formatNumber(best.values[i]) + (analysis.sensitivity?.negligible[i] ? ", negligible effect" : ""),
+    },
     {
       title: "change", unit: "of range", hint: "best minus default, in widths of the range", value: ({ i }) => best.distance[i],
-      show: ({ i }) => `${(best.distance[i] ?? 0) > 0 ? "+" : ""}${formatNumber(best.distance[i], 2)}`,
+      show: ({ i }) => best.without_effect[i] ? kNone : `${(best.distance[i] ?? 0) > 0 ? "+" : ""}${formatNumber(best.distance[i], 2)}`,
     },
   ], { caption: "Best values; interval: best values when seeds are resampled", rowName: ({ parameter }) => parameter.name });
 }
@@ -79,12 +88,13 @@ export function sensitivity(own: TunedEstimator, analysis: Analysis): HTMLElemen
   const found = analysis.sensitivity;
   if (!found) {
     return h("p", { class: "nothing" },
-      `No sensitivity: ${analysis.why_no_sensitivity ?? "no point is complete yet"}.`);
+      `No sensitivity: ${analysis.why_no_sensitivity ?? "no point is complete yet"}. ${analysis.effect ?? ""}`);
   }
   const source = sourceText(found);
   if (!found.resolved) {
     return h("p", { class: "nothing" },
-      `Not resolved: indices take a cross-validated R² of at least ${percent(found.least_explained)}. ${source}`);
+      found.has_indices ? `Not resolved. ${analysis.effect ?? ""} ${source}`
+        : `Not resolved: indices take a cross-validated R² of at least ${percent(found.least_explained)}. ${source} ${analysis.effect ?? ""}`);
   }
   const order = own.parameters.map((_, i) => i).sort((a, b) => (found.total[b] ?? 0) - (found.total[a] ?? 0));
   const bars = order.map((i) => {
@@ -101,7 +111,7 @@ export function sensitivity(own: TunedEstimator, analysis: Analysis): HTMLElemen
       h("span", { class: "sobol-text" }, `${percent(total)}${bracket(interval, 100)}, first order ${percent(first)}` +
         (found.negligible[i] ? "; negligible" : "")));
   });
-  return h("div", {}, h("div", { class: "sobol" }, ...bars), h("p", { class: "soft" },
+  return h("div", {}, h("p", { "data-effect": "" }, `Whole effect: ${analysis.effect ?? ""}`), h("div", { class: "sobol" }, ...bars), h("p", { class: "soft" },
     `Wide bars: total Sobol index with its 95 % interval; narrow bars: first-order index. ${source}`), interactions(own, found.second));
 }
 

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/tuning/objective.hpp"
+
+namespace aims {
+
+/// How much an objective differs between the points of a table, and whether by more than seeds
+/// scatter.
+struct Effect {
+  std::size_t points = 0;  ///< within their ranges, that have an objective
+  double least = 0.0;      ///< objective over all sequences
+  double most = 0.0;
+  /// That points which differ by nothing but the scatter of seeds differ so much in their mean over
+  /// seeds: fraction of the draws in which the points are exchanged within each seed (permutation
+  /// in randomized blocks, as in the test of Friedman 1937). None with one seed.
+  std::optional<double> p;
+
+  bool is_none() const;
+  /// Beyond the scatter of seeds; with one seed, whose scatter is unknown, more than 5 %.
+  bool is_resolved() const;
+};
+
+/// With `family` over its scenarios alone.
+Effect effect_of(const ResponseTable& table, const Objective& objective,
+                 const std::string& family = "");
+
+/// "The objective lies between 0.93 and 1.2 at the 16 points (29 %)." and what that is worth.
+std::string text_of(const Effect& effect);
+
+/// Per parameter, whether points that differ in it alone, of which there are some, or all points
+/// there are, have the same score in every run.
+std::vector<bool> without_effect(const ResponseTable& table);
+
+/// Whether no value lies outside its range, as a default may.
+bool is_inside(const ResponseTable& table, const std::vector<double>& values);
+
+}  // namespace aims
