@@ -100,7 +100,7 @@ bool EskfEstimator::start() {
   belief_ = robot_.at_start(belief_);
   queue_.imu().set_delay(from_seconds(belief_.state.delay));
   if (config_.lidar.enabled && config_.cross_validation.enabled) mapping_ = belief_;
-  time_ = initial->stamp;
+  time_ = begin_ = initial->stamp;
   first_belief_ = belief_;
   last_pose_ = time_;
   last_correction_ = time_;

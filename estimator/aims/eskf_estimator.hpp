@@ -62,6 +62,7 @@ class EskfEstimator : public Estimator, public MotionSource {
   void repeat_lost_legs(Time until);
   void fuse_leg_velocity(const LegOdometrySample& sample);
   bool scans_measure_scale_of_feet() const;
+  bool has_scans() const;
   LinearMeasurement reported_velocity(const LegOdometrySample& sample);
   bool fuse_zero_velocity(const LegOdometrySample& sample);
   void fuse_standing(const Eigen::Vector3d& rate);
@@ -124,6 +125,7 @@ class EskfEstimator : public Estimator, public MotionSource {
   std::vector<InertialSegment> segments_;
   CalibrationModel calibration_;         ///< of the present scan
   ScanMotion scan_motion_;               ///< of the present scan
+  Time begin_ = 0;                       ///< of the estimate
   std::optional<Time> last_scan_;        ///< end of the last scan
   std::vector<Eigen::Vector3f> mapped_;  ///< points of the present scan, odometry frame
 };

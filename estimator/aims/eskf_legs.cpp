@@ -15,14 +15,27 @@ const LegConfig kLegsOfUnknownScale;
 /// Without a scan for longer, nothing but the legs may measure the velocity.
 constexpr Duration kScanIsRecent = kSecond / 2;
 
+/// What measures the state besides the feet.
+struct MeasuredByScans {
+  bool pose = false;  ///< by scans up to now
+  bool scale_of_feet = false;
+};
+
 /// What feet correct. Not heading and gyro bias: unmodelled creep and rolling would turn the robot.
 /// The leg scale only where scans measure the velocity; elsewhere changes of speed would decide it.
-GainMask gain_of_feet(const NominalState& state, bool scale_is_measured) {
+/// Without scans neither the level bias of the accelerometer, which would tilt the robot, nor the
+/// height: the errors of feet within a stride repeat, and would be taken for an old error of it
+/// (docs/decisions.md#feet-alone-keep-tilt-and-height).
+GainMask gain_of_feet(const NominalState& state, const MeasuredByScans& measured) {
   const Eigen::Vector3d up = state.rotation.conjugate() * Eigen::Vector3d::UnitZ();
   GainMask mask;
-  mask.legs = scale_is_measured;
+  mask.legs = measured.scale_of_feet;
   mask.gyro_bias = false;
   mask.rotation -= up * up.transpose();
+  if (!measured.pose) {
+    mask.accelerometer_bias = up * up.transpose();
+    mask.height = false;
+  }
   return mask;
 }
 
@@ -125,6 +138,9 @@ bool EskfEstimator::scans_measure_scale_of_feet() const {
          last_scan_ && time_ - *last_scan_ < kScanIsRecent;
 }
 
+/// The start counts as a scan: the first one follows.
+bool EskfEstimator::has_scans() const { return last_scan_ || time_ - begin_ < kScanIsRecent; }
+
 void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   predict_to(sample.stamp);
   const bool by_feet = feet_.applies(sample);
@@ -137,7 +153,8 @@ void EskfEstimator::fuse_leg_velocity(const LegOdometrySample& sample) {
   leg_innovation_ = measurement.residual.norm();
   ++leg_updates_;
   const GainMask mask =
-      by_feet ? gain_of_feet(belief_.state, scans_measure_scale_of_feet()) : GainMask();
+      by_feet ? gain_of_feet(belief_.state, {has_scans(), scans_measure_scale_of_feet()})
+              : GainMask();
   const bool judged = mask.legs && !lidar_update_.considers_legs() && robot_.judges_legs();
   const std::optional<Belief> before = judged ? std::optional(belief_) : std::nullopt;
   const MotionVariance predicted = motion_variance(belief_);

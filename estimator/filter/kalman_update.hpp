@@ -43,6 +43,9 @@ struct GainMask {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   /// Factors of position and velocity, odometry axes.
   Eigen::Matrix3d translation = Eigen::Matrix3d::Identity();
+  bool height = true;  ///< z of the position
+  /// Factor of the bias of the accelerometer, body axes.
+  Eigen::Matrix3d accelerometer_bias = Eigen::Matrix3d::Identity();
 
   ErrorMatrix matrix() const;
 
@@ -54,9 +57,12 @@ struct GainMask {
     auto rotation_rows = gain.template middleRows<3>(E::kRotation.offset);
     auto position_rows = gain.template middleRows<3>(E::kPosition.offset);
     auto velocity_rows = gain.template middleRows<3>(E::kVelocity.offset);
+    auto bias_rows = gain.template middleRows<3>(E::kAccelerometerBias.offset);
     rotation_rows = rotation.lazyProduct(rotation_rows).eval();
     position_rows = translation.lazyProduct(position_rows).eval();
     velocity_rows = translation.lazyProduct(velocity_rows).eval();
+    bias_rows = accelerometer_bias.lazyProduct(bias_rows).eval();
+    if (!height) position_rows.row(2).setZero();
     if (!gyro_bias) gain.template middleRows<3>(E::kGyroBias.offset).setZero();
     if (!legs) gain.template middleRows<E::kLegSize>(E::kLegScale.offset).setZero();
     return gain;
