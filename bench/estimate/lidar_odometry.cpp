@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimator/baselines/points/point_choice.hpp"
+#include "estimator/lidar/point_choice.hpp"
 
 namespace aims {
 namespace {
@@ -43,7 +43,7 @@ std::vector<Eigen::Vector4f> timed_points(const LidarScan& scan, Time middle) {
       scan.points, [](const LidarPoint& each) { return each.time_offset_ns != 0; });
   const int every = 1 + static_cast<int>(scan.points.size()) / kMostReturns;
   std::vector<Eigen::Vector4f> points;
-  for (const int index : points::chosen_points(scan, every, kNearest)) {
+  for (const int index : chosen_points(scan, every, kNearest)) {
     const LidarPoint& each = scan.points[static_cast<std::size_t>(index)];
     const double t = timed ? to_seconds(scan.stamp + each.time_offset_ns - middle) : 0.0;
     points.emplace_back(each.position.x(), each.position.y(), each.position.z(),
@@ -111,7 +111,7 @@ void LidarOdometry::add(const LidarScan& scan) {
   if (!path.empty()) {
     const double dt = to_seconds(middle - path.back().stamp);
     motion = {path.back().pose * Pose{so3_exp(twist_.angular * dt), twist_.linear * dt}, twist_};
-    if (!register_points(points::voxel_centroids(points, kMatchVoxel), motion)) {
+    if (!register_points(voxel_centroids(points, kMatchVoxel), motion)) {
       return begin_path();
     }
   } else {
@@ -154,7 +154,7 @@ void LidarOdometry::insert(std::span<const TimedPoint> points, const Motion& mot
   for (const TimedPoint& each : points) {
     placed.emplace_back((motion.pose * motion.twist.deskewed(each)).cast<float>());
   }
-  map_.insert(points::voxel_centroids(placed, kMapVoxel), motion.pose.translation.cast<float>());
+  map_.insert(voxel_centroids(placed, kMapVoxel), motion.pose.translation.cast<float>());
 }
 
 }  // namespace aims

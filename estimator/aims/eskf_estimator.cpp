@@ -134,7 +134,8 @@ void EskfEstimator::judge_health() {
   append_health(result_.health, health_.judge(*judged_, queue_.inputs(), estimate));
 }
 
-/// The pipeline of one scan.
+/// The pipeline of one scan. Leg packets since the last scan have corrected the belief at their own
+/// stamps (eskf_legs.cpp); `leg_free_` is the prediction without them, for C_IL of eq. (6).
 void EskfEstimator::correct(const LidarScanPtr& scan) {
   if (scan->end < time_) {
     ++result_.counts["lidar.before_start"];

@@ -3,8 +3,8 @@
 
 #include <limits>
 
-#include "estimator/baselines/points/point_choice.hpp"
 #include "estimator/baselines/points/translation_constraint.hpp"
+#include "estimator/lidar/point_choice.hpp"
 
 namespace aims::fast_lio2 {
 
@@ -188,7 +188,7 @@ void FastLio2::process(const LidarScan& scan) {
   }
   queue_.imu().forget_before(end - kSecond);
   const std::vector<Eigen::Vector3f> points =
-      points::voxel_centroids(deskewed(scan, indices, knots_, belief_.state), config_.points.voxel);
+      voxel_centroids(deskewed(scan, indices, knots_, belief_.state), config_.points.voxel);
   const Pose T_world_lidar = belief_.state.T_world_body * belief_.state.T_body_lidar;
   cube_.follow(T_world_lidar.translation, map_);
   if (map_.empty() && points.size() > kMinPoints) {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "estimator/baselines/points/point_choice.hpp"
+#include "estimator/lidar/point_choice.hpp"
 
 namespace aims::fast_lio2 {
 namespace {
@@ -18,7 +18,7 @@ const Knot* knot_before(std::span<const Knot> knots, Time stamp) {
 }  // namespace
 
 std::vector<int> selected_points(const LidarScan& scan, const Points& config) {
-  return points::chosen_points(scan, config.every_nth, config.min_range);
+  return chosen_points(scan, config.every_nth, config.min_range);
 }
 
 Time end_of(const LidarScan& scan, std::span<const int> indices) {

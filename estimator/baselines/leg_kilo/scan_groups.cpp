@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimator/baselines/points/point_choice.hpp"
+#include "estimator/lidar/point_choice.hpp"
 
 namespace aims::leg_kilo {
 
@@ -19,7 +19,7 @@ Time last_firing(const LidarScan& scan) {
 std::vector<TimedPoint> timed_points(const LidarScan& scan, const Points& config) {
   std::vector<TimedPoint> points;
   const Time begin = first_firing(scan);
-  for (const int index : points::chosen_points(scan, config.every_nth, config.min_range)) {
+  for (const int index : chosen_points(scan, config.every_nth, config.min_range)) {
     const LidarPoint& point = scan.points[static_cast<std::size_t>(index)];
     const double time = to_seconds(scan.stamp + point.time_offset_ns - begin);
     const double rounded = std::round(time / config.time_step) * config.time_step;
@@ -30,8 +30,7 @@ std::vector<TimedPoint> timed_points(const LidarScan& scan, const Points& config
 }
 
 std::vector<PointGroup> point_groups(const LidarScan& scan, const Points& config) {
-  std::vector<TimedPoint> points =
-      points::voxel_centroids(timed_points(scan, config), config.voxel);
+  std::vector<TimedPoint> points = voxel_centroids(timed_points(scan, config), config.voxel);
   std::ranges::stable_sort(points, {}, [](const TimedPoint& point) { return point.w(); });
   const Time begin = first_firing(scan);
   std::vector<PointGroup> groups;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "estimator/baselines/points/point_choice.hpp"
 #include "estimator/baselines/points/translation_constraint.hpp"
+#include "estimator/lidar/point_choice.hpp"
 
 namespace aims::points {
 namespace {

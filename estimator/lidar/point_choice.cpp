@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/baselines/points/point_choice.hpp"
+#include "estimator/lidar/point_choice.hpp"
 
-namespace aims::points {
+namespace aims {
 
 namespace {
 
@@ -21,4 +21,4 @@ std::vector<int> chosen_points(const LidarScan& scan, int every_nth, double min_
   return indices;
 }
 
-}  // namespace aims::points
+}  // namespace aims

@@ -8,7 +8,7 @@
 
 #include "core/measurements.hpp"
 
-namespace aims::points {
+namespace aims {
 
 /// One return of every `every_nth`, in order of firing, that is further than `min_range` [m], as
 /// indices into `scan`.
@@ -44,4 +44,4 @@ std::vector<Point> voxel_centroids(const std::vector<Point>& points, double voxe
   return centroids;
 }
 
-}  // namespace aims::points
+}  // namespace aims
