@@ -34,10 +34,15 @@ bool is_scenario(const std::string& source) {
   return !fs::exists(source) || (yaml && !is_recorded_table(source));
 }
 
-/// A recording counts once, however often it is named.
-Result<void> check_different(const std::vector<std::string>& sources) {
+/// Error for a recording that is named twice and for what is none.
+Result<void> check_sources(const std::vector<std::string>& sources) {
   std::set<fs::path> seen;
   for (const std::string& each : sources) {
+    if (each.find('=') != std::string::npos && !fs::exists(each)) {
+      return failure(each +
+                     ": no recording or scenario; --topics takes several with commas, "
+                     "lidar=/a,imu=/b");
+    }
     std::error_code ignored;
     if (is_scenario(each) || seen.insert(fs::weakly_canonical(each, ignored)).second) continue;
     return failure(each + ": named twice, expected each recording once");
@@ -80,9 +85,30 @@ Result<CalibrationRun> run_of_recording(const CalibrateArguments& arguments,
   return run;
 }
 
+/// Error where sequences are simulated with a robot drawn for each of them.
+Result<void> check_robot_seed(const CalibrateArguments& arguments) {
+  std::size_t drawn = 0;
+  for (const std::string& source : arguments.sources) {
+    if (!is_scenario(source)) continue;
+    SharedOptions shared = arguments.shared;
+    shared.scenario = source;
+    const auto scenario = scenario_of(shared);
+    if (!scenario) return tl::unexpected(scenario.error());
+    const auto seeds = seeds_of(shared, {static_cast<std::uint64_t>(scenario->seed)});
+    if (!seeds) return tl::unexpected(seeds.error());
+    if (scenario->simulation.robot_seed == 0) drawn += seeds->size();
+  }
+  if (drawn < 2) return {};
+  return failure(
+      fmt::format("{} sequences have a robot drawn for each: expected --robot-seed N, "
+                  "the one robot of all",
+                  drawn));
+}
+
 Result<std::vector<CalibrationRun>> runs_of(const CalibrateArguments& arguments) {
   std::vector<CalibrationRun> runs;
   for (const std::string& source : arguments.sources) {
+    if (auto one = check_one_robot(runs); !one) return tl::unexpected(one.error());
     if (!is_scenario(source)) {
       auto run = run_of_recording(arguments, source);
       if (!run) return tl::unexpected(run.error());
@@ -93,6 +119,7 @@ Result<std::vector<CalibrationRun>> runs_of(const CalibrateArguments& arguments)
     if (!found) return tl::unexpected(found.error());
     std::move(found->begin(), found->end(), std::back_inserter(runs));
   }
+  if (auto one = check_one_robot(runs); !one) return tl::unexpected(one.error());
   return runs;
 }
 
@@ -131,7 +158,8 @@ Result<int> calibrate(const CalibrateArguments& arguments) {
   if (fs::exists(shared.out) && !shared.overwrite) {
     return failure(shared.out + ": exists; give another --out, or --overwrite to replace it");
   }
-  if (auto ok = check_different(arguments.sources); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check_sources(arguments.sources); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check_robot_seed(arguments); !ok) return tl::unexpected(ok.error());
   watch_interrupt();
   CalibrateArguments measuring = arguments;
   std::vector<std::string>& settings = measuring.shared.settings;
@@ -164,7 +192,7 @@ void declare_calibrate(Command command, const fs::path& scenarios) {
                  Presence::kRequired);
   command.option("--config", arguments->config,
                  "YAML file with the groups recording, estimator, scoring");
-  command.list("--topics", arguments->topics, "SENSOR=TOPIC, as of aims estimate");
+  command.list("--topics", arguments->topics, "SENSOR=TOPIC,..., as of aims estimate");
   add_folder(command, shared);
   add_seeds(command, shared, "that of the scenario");
   add_robot_seed(command, shared);

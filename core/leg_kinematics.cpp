@@ -78,15 +78,15 @@ Eigen::Vector3d velocity_from_rolling_foot(int leg, const LegMotion& motion,
 }
 
 void describe(Fields& f, LegGeometry& g) {
-  const auto length = [](std::string meaning) {
-    return Spec{.unit = "m", .range = up_to(10.0), .meaning = std::move(meaning)};
+  const auto length = [](std::string meaning, double most = 2.0) {
+    return Spec{.unit = "m", .range = up_to(most), .meaning = std::move(meaning)};
   };
   f.number("hip_x", g.hip_x, length("hip from the trunk's centre, forward or back"));
   f.number("hip_y", g.hip_y, length("hip from the trunk's centre, to either side"));
   f.number("abduction", g.abduction, length("from the abduction axis to the plane of the leg"));
   f.number("thigh", g.thigh, length("of the thigh, hip to knee"));
   f.number("calf", g.calf, length("of the calf, knee to the foot's centre"));
-  f.number("foot_radius", g.foot_radius, length("of the round foot"));
+  f.number("foot_radius", g.foot_radius, length("of the round foot", 0.3));
 }
 
 }  // namespace aims

@@ -13,7 +13,7 @@
 namespace aims {
 namespace {
 
-constexpr double kLargest = 1e12;  ///< of numbers in any unit
+constexpr double kLargest = 1e12;  ///< of what is only read
 constexpr double kDegree = 57.295779513082320;
 
 // Differences that are no rounding.
@@ -36,6 +36,9 @@ Result<void> check(const CalibratedQuantity& quantity) {
         fmt::format("name '{}': expected a quantity that estimators start from, e.g. "
                     "{}, or used: false",
                     quantity.name, kPriorQuantities.front().name));
+  }
+  if (const std::string what = implausible(quantity.name, quantity.values); !what.empty()) {
+    return failure(fmt::format("{}: {}, or used: false", quantity.name, what));
   }
   if (gaussian_of(all_numbers(quantity), known->size)) return {};
   return failure(
@@ -60,7 +63,7 @@ double largest_difference(const LegGeometry& a, const LegGeometry& b) {
 void describe(Fields& f, CalibratedQuantity& c) {
   const auto numbers = [&](std::string_view name, std::vector<double>& value,
                            const std::string& meaning) {
-    f.numbers(name, value, {"", within(kLargest), meaning});
+    f.numbers(name, value, {"", within(kLargestPrior), meaning});
   };
   f.text("name", c.name, {.meaning = "quantity"});
   f.texts("entries", c.entries, {.meaning = "its entries, with unit"});
@@ -141,8 +144,8 @@ CalibratedSensors sensors_of(const SensorRig& rig, std::vector<std::string> topi
           std::move(topics)};
 }
 
-std::vector<std::string> misfits(const CalibratedSensors& calibrated,
-                                 const CalibratedSensors& sensors) {
+std::vector<std::string> body_misfits(const CalibratedSensors& calibrated,
+                                      const CalibratedSensors& sensors) {
   std::vector<std::string> found;
   if (largest_difference(calibrated.legs, sensors.legs) > kLengthDiffers) {
     found.emplace_back("legs of other dimensions");
@@ -151,7 +154,13 @@ std::vector<std::string> misfits(const CalibratedSensors& calibrated,
       (calibrated.lidar_translation - sensors.lidar_translation).norm() > kMountDiffers;
   const bool turned =
       (calibrated.lidar_rotation_deg - sensors.lidar_rotation_deg).norm() > kAngleDiffers;
-  if (moved || turned) found.emplace_back("another mount of the LiDAR");
+  if (sensors.has_lidar && (moved || turned)) found.emplace_back("another mount of the LiDAR");
+  return found;
+}
+
+std::vector<std::string> misfits(const CalibratedSensors& calibrated,
+                                 const CalibratedSensors& sensors) {
+  std::vector<std::string> found = body_misfits(calibrated, sensors);
   if (differ(calibrated.imu_rate, sensors.imu_rate, kRateDiffers)) {
     found.push_back(fmt::format("an IMU of {:.0f} instead of {:.0f} Hz", sensors.imu_rate,
                                 calibrated.imu_rate));
@@ -160,8 +169,10 @@ std::vector<std::string> misfits(const CalibratedSensors& calibrated,
     found.push_back(
         fmt::format("legs at {:.0f} instead of {:.0f} Hz", sensors.leg_rate, calibrated.leg_rate));
   }
-  if (!calibrated.topics.empty() && !sensors.topics.empty() &&
-      calibrated.topics != sensors.topics) {
+  const bool all_known = std::ranges::all_of(sensors.topics, [&](const std::string& each) {
+    return std::ranges::find(calibrated.topics, each) != calibrated.topics.end();
+  });
+  if (!calibrated.topics.empty() && !all_known) {
     found.push_back(fmt::format("topics {} instead of {}", fmt::join(sensors.topics, ", "),
                                 fmt::join(calibrated.topics, ", ")));
   }

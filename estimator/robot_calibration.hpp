@@ -34,6 +34,9 @@ struct CalibratedQuantity {
 inline constexpr const char* kObservable = "observable";
 inline constexpr const char* kNotObservable = "not observable";
 
+/// The reason in the health of an estimate that starts from the calibration of another robot.
+inline constexpr const char* kOtherRobot = "calibration of another robot";
+
 /// What a calibration holds for: another robot has other figures.
 struct CalibratedSensors {
   LegGeometry legs;
@@ -42,6 +45,7 @@ struct CalibratedSensors {
   double imu_rate = 0.0;                                         ///< [Hz]
   double leg_rate = 0.0;                                         ///< [Hz]
   std::vector<std::string> topics;                               ///< of a recording; else none
+  bool has_lidar = true;                                         ///< else it has no mount
 };
 
 /// What stays with a robot, from recordings of it.
@@ -69,6 +73,10 @@ std::vector<std::string> prior_settings(const RobotCalibration& calibration,
                                         const std::filesystem::path& file);
 
 CalibratedSensors sensors_of(const SensorRig& rig, std::vector<std::string> topics);
+
+/// How the body and its mount differ, by which it is another robot for certain.
+std::vector<std::string> body_misfits(const CalibratedSensors& calibrated,
+                                      const CalibratedSensors& sensors);
 
 /// How `sensors` differ from those that a calibration holds for, one clause each; empty: they fit.
 std::vector<std::string> misfits(const CalibratedSensors& calibrated,

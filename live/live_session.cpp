@@ -43,11 +43,12 @@ std::vector<ReadingWarning> warnings_of(const LiveConfig& config, const Recordin
   std::vector<ReadingWarning> warnings = setup.warnings;
   std::erase_if(warnings, [&](const ReadingWarning& each) { return !concerns(config, each); });
   if (!config.calibration) return warnings;
-  const auto found = misfits(config.calibration->sensors, sensors_of(setup.rig, {}));
+  CalibratedSensors sensors = sensors_of(setup.rig, {});
+  sensors.has_lidar = !setup.topics.lidar.empty();
+  const auto found = misfits(config.calibration->sensors, sensors);
   if (!found.empty()) {
-    warnings.push_back(
-        {"calibration of another robot",
-         fmt::format("the calibration does not fit this robot: {}", fmt::join(found, ", "))});
+    warnings.push_back({kOtherRobot, fmt::format("the calibration does not fit this robot: {}",
+                                                 fmt::join(found, ", "))});
   }
   return warnings;
 }

@@ -58,7 +58,7 @@ void describe_legs(Fields& f, RecordingConfig& c) {
                          "torques of robots' states and tables"));
   f.number("contact_threshold", c.contact_threshold,
            {.unit = "N",
-            .range = within(1e6),
+            .range = up_to(1e6),
             .meaning = "smallest value of a foot in contact; of flags: 0.5"});
   f.texts(
       "foot_names", c.foot_names,

@@ -147,9 +147,9 @@ Result<void> warn_of_misfit(const EstimateOptions& options, RecordingSetup& setu
   });
   if (by_feet && !setup.has_joints) found.emplace_back("no joint angles, by which it has the legs");
   if (found.empty()) return {};
-  setup.warnings.push_back({"calibration of another robot",
-                            fmt::format("the calibration {} does not fit this recording: {}",
-                                        options.calibration.string(), fmt::join(found, ", "))});
+  setup.warnings.push_back(
+      {kOtherRobot, fmt::format("the calibration {} does not fit this recording: {}",
+                                options.calibration.string(), fmt::join(found, ", "))});
   return {};
 }
 
@@ -186,6 +186,22 @@ void warn_in_health(const EstimateConfig& config, EstimateResult& result) {
     const double whole = health.degraded_s + health.invalid_s;
     for (const std::string& reason : reasons) health.reasons[reason] = whole;
   }
+}
+
+/// Adds the reasons that were found on the way to the files of the health; those `known` at the
+/// start are in them.
+Result<void> add_late_reasons(const EstimateConfig& config, const RecordingSetup& known,
+                              const EstimateResult& result) {
+  if (result.folder.empty()) return {};
+  for (const EstimatorOutcome& each : result.estimators) {
+    std::vector<std::string> late = reasons_of(config, result.setup, each.name);
+    const auto at_start = reasons_of(config, known, each.name);
+    std::erase_if(late, [&](const std::string& reason) {
+      return std::ranges::find(at_start, reason) != at_start.end();
+    });
+    if (auto ok = add_health_reasons(result.folder, each.name, late); !ok) return ok;
+  }
+  return {};
 }
 
 /// Error when an estimator needs legs and the recording has none.
@@ -248,7 +264,9 @@ Result<StreamEnd> stream_into_log(const EstimateConfig& config, RecordingReader&
 }  // namespace
 
 CalibratedSensors calibrated_sensors(const RecordingSetup& setup) {
-  return sensors_of(setup.rig, topics_of(setup.topics));
+  CalibratedSensors sensors = sensors_of(setup.rig, topics_of(setup.topics));
+  sensors.has_lidar = !setup.topics.lidar.empty() && setup.topics.lidar != "none";
+  return sensors;
 }
 
 void describe(Fields& fields, EstimateConfig& config) {
@@ -308,6 +326,7 @@ Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOpti
       result.without_rings.push_back(label_of(text));
     }
   }
+  const RecordingSetup known = result.setup;
   auto estimators = make_estimators(config.run, config.estimators, result.setup.rig);
   if (!estimators) return tl::unexpected(estimators.error());
 
@@ -327,6 +346,7 @@ Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOpti
   result.recorded_s = to_seconds(reader->position());
   estimators->clear();
   warn_in_health(config, result);
+  if (auto ok = add_late_reasons(config, known, result); !ok) return tl::unexpected(ok.error());
   set_failed_apart(result);
   auto shown = scans_to_show(result, scans);
   if (!shown) return tl::unexpected(shown.error());

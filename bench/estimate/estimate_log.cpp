@@ -1,29 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/estimate/estimate_log.hpp"
 
-#include <algorithm>
-#include <span>
 #include <utility>
 
+#include "bench/scoring/health_time.hpp"
 #include "core/files/tum.hpp"
 
 namespace aims {
-namespace {
-
-/// The rows with the warnings among their reasons.
-std::vector<HealthRow> warned(std::span<const HealthRow> rows,
-                              const std::vector<std::string>& warnings) {
-  std::vector<HealthRow> marked(rows.begin(), rows.end());
-  for (HealthRow& row : marked) {
-    if (warnings.empty() || row.state == HealthState::kStarting) continue;
-    row.state = std::max(row.state, HealthState::kDegraded);
-    row.reasons.insert(row.reasons.end(), warnings.begin(), warnings.end());
-  }
-  return marked;
-}
-
-}  // namespace
-
 Result<EstimateLog> EstimateLog::create(const std::filesystem::path& folder,
                                         const std::vector<TimedEstimator>& estimators,
                                         std::vector<std::vector<std::string>> warnings) {

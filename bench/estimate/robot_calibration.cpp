@@ -56,7 +56,9 @@ void judge(CalibratedQuantity& result, const Gaussian& found) {
   const bool any = std::ranges::count(result.verdict, kObservable) > 0;
   const bool prior = std::ranges::find(kPriorQuantities, result.name, &PriorQuantity::name) !=
                      kPriorQuantities.end();
-  result.used = any && prior;
+  const std::string odd = implausible(result.name, result.values);
+  result.used = any && prior && odd.empty();
+  if (!odd.empty()) result.note = "not used: " + odd;
   if (!prior) result.note = "stated only: estimators do not start from it";
 }
 
@@ -111,7 +113,7 @@ CalibratedQuantity calibrated(std::span<const LearnedQuantity> runs) {
     return result;
   }
   const bool enough = static_cast<int>(runs.size()) >= kRunsOfVarying;
-  judge(result, enough ? spread_of(runs) : posterior_of(sum));
+  judge(result, runs.size() > 1 ? spread_of(runs) : posterior_of(first));
   if (enough) return result;
   result.used = false;
   result.note = fmt::format("varies from run to run: known from {} recordings on", kRunsOfVarying);
@@ -141,17 +143,35 @@ RobotCalibration combined(std::span<const CalibrationRun> runs, const std::strin
   return calibration;
 }
 
+Result<void> check_one_robot(std::span<const CalibrationRun> runs) {
+  for (const CalibrationRun& run : runs) {
+    const auto differences = body_misfits(runs.front().sensors, run.sensors);
+    if (differences.empty()) continue;
+    return failure(fmt::format("{} is not of the robot of {}: {}; expected recordings of one robot",
+                               run.name, runs.front().name, fmt::join(differences, ", ")));
+  }
+  return {};
+}
+
 std::vector<std::string> warnings_of(const RobotCalibration& calibration,
                                      std::span<const CalibrationRun> runs) {
   std::vector<std::string> warnings;
   for (const CalibrationRun& run : runs.subspan(1)) {
     const auto differences = misfits(calibration.sensors, run.sensors);
     if (differences.empty()) continue;
-    warnings.push_back(fmt::format("{} is not of the robot of {}: {}", run.name, runs.front().name,
+    warnings.push_back(fmt::format("{} differs from {}: {}", run.name, runs.front().name,
                                    fmt::join(differences, ", ")));
   }
   for (const CalibratedQuantity& each : calibration.quantities) {
-    if (each.inflation > 1.0) warnings.push_back(each.name + ": " + each.note);
+    const bool odd = !implausible(each.name, each.values).empty();
+    if (odd || (each.used && each.inflation > 1.0)) {
+      warnings.push_back(each.name + ": " + each.note);
+    }
+  }
+  if (std::ranges::count(calibration.quantities, true, &CalibratedQuantity::used) == 0) {
+    warnings.emplace_back(
+        "nothing of the robot was learned: estimators do not start from this calibration. Record a "
+        "walk in a place with features, with LiDAR, IMU and legs");
   }
   return warnings;
 }

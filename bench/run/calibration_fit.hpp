@@ -12,4 +12,8 @@ namespace aims {
 /// How the robot of the scenario differs from that of the calibration, one clause each.
 std::vector<std::string> misfits(const RobotCalibration& calibration, const Scenario& scenario);
 
+/// Whether the estimator of that spec starts from a calibration whose file says that it is of
+/// another robot than that of the scenario.
+bool is_of_another_robot(const std::string& estimator, const Scenario& scenario);
+
 }  // namespace aims

@@ -2,6 +2,8 @@
 #include "bench/run/evaluate.hpp"
 
 #include "bench/estimate/stream.hpp"
+#include "bench/run/calibration_fit.hpp"
+#include "bench/scoring/health_time.hpp"
 #include "bench/scoring/validity.hpp"
 
 namespace aims {
@@ -49,6 +51,9 @@ Result<EstimatorOutcome> evaluate(const Sequence& sequence, const Scenario& scen
   if (!streamed) return tl::unexpected(streamed.error());
   EstimatorOutcome outcome = outcome_of(estimators->front());
   if (outcome.result.failure) return tl::unexpected(*outcome.result.failure);
+  if (is_of_another_robot(estimator, scenario)) {
+    outcome.result.health = warned(outcome.result.health, {kOtherRobot});
+  }
   add_scores(sequence, scenario, outcome);
   return outcome;
 }

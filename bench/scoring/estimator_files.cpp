@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/scoring/estimator_files.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <utility>
 
 #include "bench/scoring/health_summary.hpp"
 #include "bench/scoring/tables.hpp"
+#include "core/files/csv_columns.hpp"
 #include "core/files/ply.hpp"
 #include "core/files/tum.hpp"
 
@@ -55,6 +59,28 @@ Result<void> write_estimator(const EstimatorOutcome& outcome, const fs::path& fo
   auto written = writer->add(rows_of(outcome));
   if (written) written = writer->commit();
   return written ? write_map_and_optimized(outcome, folder, name) : written;
+}
+
+Result<void> add_health_reasons(const fs::path& folder, const std::string& name,
+                                const std::vector<std::string>& reasons) {
+  const fs::path file = folder / (name + ".health.csv");
+  if (reasons.empty() || !fs::exists(file)) return {};
+  const auto rows = CsvColumns::read(file);
+  if (!rows) return tl::unexpected(rows.error());
+  const auto stamps = rows->texts("stamp_s"), states = rows->texts("state"),
+             before = rows->texts("reasons"), sigmas = rows->texts("position_sigma_m");
+  CsvTable table(rows->header());
+  const std::string added = fmt::format("{}", fmt::join(reasons, "; "));
+  for (std::size_t i = 0; i < rows->rows(); ++i) {
+    const bool started = states[i] != name_of(HealthState::kStarting);
+    const bool healthy = states[i] == name_of(HealthState::kHealthy);
+    const std::string separator = before[i].empty() ? "" : "; ";
+    table.add(stamps[i]);
+    table.add(healthy ? std::string(name_of(HealthState::kDegraded)) : states[i]);
+    table.add(started ? before[i] + separator + added : before[i]).add(sigmas[i]);
+    table.end_row();
+  }
+  return write_csv(file, table);
 }
 
 Result<void> write_map_and_optimized(const EstimatorOutcome& outcome, const fs::path& folder,

@@ -39,6 +39,11 @@ class RowWriter {
 Result<void> write_estimator(const EstimatorOutcome& outcome, const std::filesystem::path& folder,
                              const std::string& name);
 
+/// Rewrites NAME.health.csv with reasons that were found at the end: in all rows but those before
+/// the start, which are then degraded at best. Nothing where there is no such file.
+Result<void> add_health_reasons(const std::filesystem::path& folder, const std::string& name,
+                                const std::vector<std::string>& reasons);
+
 /// Writes of these what is no row: the re-optimized trajectory and the map.
 Result<void> write_map_and_optimized(const EstimatorOutcome& outcome,
                                      const std::filesystem::path& folder, const std::string& name);

@@ -26,6 +26,17 @@ void add_health(const HealthRow& row, HealthSummary& summary) {
   summary.last = row;
 }
 
+std::vector<HealthRow> warned(std::span<const HealthRow> rows,
+                              const std::vector<std::string>& warnings) {
+  std::vector<HealthRow> marked(rows.begin(), rows.end());
+  for (HealthRow& row : marked) {
+    if (warnings.empty() || row.state == HealthState::kStarting) continue;
+    row.state = std::max(row.state, HealthState::kDegraded);
+    row.reasons.insert(row.reasons.end(), warnings.begin(), warnings.end());
+  }
+  return marked;
+}
+
 HealthSummary health_summary(const std::vector<HealthRow>& rows) {
   HealthSummary summary;
   for (const HealthRow& row : rows) add_health(row, summary);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,11 @@ struct HealthSummary {
 
 /// Adds the row that follows those added before; each holds until the next.
 void add_health(const HealthRow& row, HealthSummary& summary);
+
+/// The rows with the warnings among their reasons, degraded at best; those before the start as they
+/// are.
+std::vector<HealthRow> warned(std::span<const HealthRow> rows,
+                              const std::vector<std::string>& warnings);
 
 /// The summary of all rows.
 HealthSummary health_summary(const std::vector<HealthRow>& rows);

@@ -233,7 +233,7 @@ void EskfEstimator::note_contradictions() {
 }
 
 std::vector<LearnedQuantity> EskfEstimator::learned() const {
-  return robot_.learned(belief_, feet_.compliance(), queue_.imu().noise().density());
+  return robot_.learned(belief_, feet_.compliance());
 }
 
 /// Whether leg packets mean what they will mean to the end. Until the compliance of the joints is

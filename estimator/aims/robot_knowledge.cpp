@@ -21,8 +21,8 @@ const std::vector<std::string> kLegEntries = {"scale x [-]",  "scale y [-]",  "s
 constexpr double kJointDelaySigma = 4e-3;
 /// Deviation between the scale that scans show and that of legs left to themselves [-].
 constexpr double kScaleOfPlaces = 0.015;
-/// Relative error of the learned noise of the IMU: of 100 scans.
-constexpr double kNoiseError = 0.1;
+/// Deviation of the gyro bias of a robot that did not stand (StaticInitializationConfig) [rad/s].
+constexpr double kGyroBiasSigma = 0.01;
 
 std::vector<std::string> axes(const std::string& unit) {
   return {"x [" + unit + "]", "y [" + unit + "]", "z [" + unit + "]"};
@@ -136,8 +136,7 @@ Belief RobotKnowledge::after_scan(const Belief& before, Belief after, double dt)
 }
 
 std::vector<LearnedQuantity> RobotKnowledge::learned(const Belief& belief,
-                                                     const JointCompliance& compliance,
-                                                     const ImuNoiseDensity& noise) const {
+                                                     const JointCompliance& compliance) const {
   std::vector<LearnedQuantity> all;
   for (const Quantity& each : quantities_) {
     const bool legs = each.offset == E::kLegScale.offset;
@@ -162,16 +161,8 @@ std::vector<LearnedQuantity> RobotKnowledge::learned(const Belief& belief,
                    one(kJointDelay),
                    one(kJointDelaySigma)});
   }
-  all.push_back(bias_of(belief, E::kGyroBias, "gyro_bias", "rad/s", 0.05));
+  all.push_back(bias_of(belief, E::kGyroBias, "gyro_bias", "rad/s", kGyroBiasSigma));
   all.push_back(bias_of(belief, E::kAccelerometerBias, "accelerometer_bias", "m/s^2", 0.25));
-  const Eigen::Vector2d density(noise.gyro, noise.accelerometer);
-  const Eigen::Vector2d information = (kNoiseError * density).cwiseAbs2().cwiseInverse();
-  all.push_back({"imu_noise",
-                 {"gyro [rad/s/sqrt(Hz)]", "accelerometer [m/s^2/sqrt(Hz)]"},
-                 information.asDiagonal().toDenseMatrix(),
-                 information.cwiseProduct(density),
-                 Eigen::Vector2d::Zero(),
-                 Eigen::Vector2d(0.1, 1.0)});
   return all;
 }
 

@@ -51,8 +51,8 @@ class RobotKnowledge {
   std::vector<std::string> take_contradictions() { return std::exchange(contradicted_, {}); }
 
   /// Of the legs only where they are compared with scans.
-  std::vector<LearnedQuantity> learned(const Belief& belief, const JointCompliance& compliance,
-                                       const ImuNoiseDensity& noise) const;
+  std::vector<LearnedQuantity> learned(const Belief& belief,
+                                       const JointCompliance& compliance) const;
 
  private:
   /// Consecutive entries of the state that are constant but for a slow walk.

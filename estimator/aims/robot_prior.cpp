@@ -4,13 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace aims {
 namespace {
 
 constexpr const char* kSource = "docs/estimators.md#calibration-that-a-robot-keeps";
-/// Of all numbers, in whatever unit.
-constexpr double kLargest = 1e6;
 
 }  // namespace
 
@@ -21,7 +20,7 @@ void describe(Fields& f, RobotPriorConfig& c) {
   const auto numbers = [&](std::string_view name, std::vector<double>& value,
                            const std::string& unit, const std::string& what) {
     f.numbers(name, value,
-              {unit, within(kLargest),
+              {unit, within(kLargestPrior),
                what + ": values, then rows of their covariance from the "
                       "diagonal on",
                kSource});
@@ -42,11 +41,26 @@ Result<void> check(const RobotPriorConfig& config) {
   if (!config.enabled) return {};
   for (const PriorQuantity& each : kPriorQuantities) {
     const std::vector<double>& numbers = config.*each.numbers;
+    if (const std::string what = implausible(each.name, numbers); !what.empty()) {
+      return failure(fmt::format("prior.{}: {}", each.name, what));
+    }
     if (numbers.empty() || gaussian_of(numbers, each.size)) continue;
     return failure(
         fmt::format("prior.{}: expected {} values and the upper triangle of their "
                     "positive definite covariance, {} numbers, got {} numbers",
                     each.name, each.size, count_of_numbers(each.size), numbers.size()));
+  }
+  return {};
+}
+
+std::string implausible(std::string_view name, std::span<const double> values) {
+  if (name != "legs_by_feet") return {};
+  for (std::size_t axis = 0; axis < std::min<std::size_t>(3, values.size()); ++axis) {
+    if (std::abs(values[axis]) <= kMostLegScale) continue;
+    return fmt::format(
+        "scale {} of {:.3g}: expected at most {} of either sign; beyond it the lengths of the legs "
+        "(leg_geometry) are wrong",
+        "xyz"[axis], values[axis], kMostLegScale);
   }
   return {};
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,9 @@
 #include "estimator/learned.hpp"
 
 namespace aims {
+
+/// Of all numbers of a prior, in whatever unit.
+inline constexpr double kLargestPrior = 1e6;
 
 /// What is known of this robot beforehand, from a calibration: per quantity the numbers of
 /// `numbers_of`; none: not known.
@@ -40,6 +44,13 @@ struct PriorQuantity {
   int size;
   std::vector<double> RobotPriorConfig::*numbers;
 };
+
+/// Largest scale of legs that a robot has, four deviations of an unknown one (kFeetScaleSigma):
+/// beyond it their lengths are wrong [-].
+inline constexpr double kMostLegScale = 0.16;
+
+/// What is implausible in the values of that quantity, with what was expected; empty: nothing.
+std::string implausible(std::string_view name, std::span<const double> values);
 
 /// All of them.
 inline constexpr std::array kPriorQuantities = {

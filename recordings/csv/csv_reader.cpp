@@ -58,6 +58,21 @@ Result<Columns> columns_of(const CsvColumns& csv, const std::vector<std::string>
   return columns;
 }
 
+/// Error for a column without a number beside others that have some: no row would hold that sensor.
+Result<void> check_none_empty(const Columns& columns, const std::vector<std::string>& names,
+                              const std::string& file) {
+  const auto has_none = [](const std::vector<double>& column) {
+    return std::ranges::none_of(column, [](double each) { return std::isfinite(each); });
+  };
+  const auto empty = std::ranges::find_if(columns, has_none);
+  if (empty == columns.end() || std::ranges::all_of(columns, has_none)) return {};
+  const auto index = static_cast<std::size_t>(empty - columns.begin());
+  return failure(
+      fmt::format("{}: column '{}' holds no number in any row; expected one in each row "
+                  "in which the others of [{}] have one",
+                  file, names[index], fmt::join(names, ", ")));
+}
+
 /// The time in a cell, or nothing.
 std::optional<Time> time_of(const std::string& cell, CsvTimeUnit unit) {
   if (unit == CsvTimeUnit::kSeconds) return parse_stamp(cell);
@@ -127,6 +142,9 @@ Result<Table> read_table(const CsvMapping& mapping, const fs::path& file, bool r
   for (const auto& [names, columns] : lists) {
     auto read = columns_of(*csv, *names, file.string());
     if (!read) return tl::unexpected(read.error());
+    if (auto ok = check_none_empty(*read, *names, file.string()); !ok) {
+      return tl::unexpected(ok.error());
+    }
     *columns = std::move(*read);
   }
   return table;

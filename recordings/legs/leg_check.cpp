@@ -195,7 +195,9 @@ void LegCheck::check_turning(std::vector<ReadingWarning>& found) const {
   } else if (std::min(along_x, along_y) < kClear || (is_scale(x.scale()) && is_scale(y.scale()))) {
     return;
   } else if (is_degrees(1.0 / x.scale()) && is_degrees(1.0 / y.scale())) {
-    cause = "the gyro is in deg/s: set recording.gyro_unit=deg/s (of a table: gyro_unit: deg/s)";
+    cause =
+        "the gyro is in deg/s: set recording.gyro_unit=deg/s (of a table: gyro_unit: deg/s)"
+        "; or the joints are in rad, though recording.joint_unit is deg";
   } else if (is_degrees(x.scale()) && is_degrees(y.scale())) {
     cause = "the rates of the joints are in deg/s";
   } else {

@@ -215,8 +215,7 @@ Result<ContactRule> LegSurvey::learned_rule(ReadingNotes& notes) const {
   if (!thresholds) {
     return failure(
         fmt::format("topic '{}', field '{}': no threshold of contact can be learned: {}; "
-                    "set contact_detection: threshold with contact_threshold, or "
-                    "topics.contacts: none",
+                    "set contact_detection: threshold with contact_threshold",
                     topics_.contacts, contact_field_, thresholds.error().message));
   }
   std::string list;
@@ -257,7 +256,8 @@ Result<ContactRule> LegSurvey::decide_contacts(ReadingNotes& notes) const {
                            "learned (contact_threshold)",
                            topics_.contacts, config_.contact_threshold));
   }
-  if (!contacts_are_flags_ && largest_load_ > 1.0) return rule;
+  const bool asked = config_.contact_detection == ContactDetection::kThreshold;
+  if (!contacts_are_flags_ && (asked || largest_load_ > 1.0)) return rule;
   rule = rule_of(0.5);
   if (!contacts_are_flags_) {
     notes.push_back(fmt::format("{}: '{}' is at most 1 at the start: a flag, threshold 0.5",

@@ -2,9 +2,11 @@
 #include "recordings/stream/recording_plan.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "recordings/frames/configured_extrinsic.hpp"
@@ -121,12 +123,24 @@ const StateLayout* state_of_joints(const RecordingChannels& channels, const Topi
 /// Lengths where nothing states any: of a Unitree Go1, whose size the simulated robot has.
 constexpr LegGeometry kAssumedLegs = {0.188, 0.047, 0.08, 0.213, 0.213, 0.022};
 
-/// `given` with its zeros from `others`.
-LegGeometry completed(LegGeometry given, const LegGeometry& others) {
-  for (double LegGeometry::*length :
-       {&LegGeometry::hip_x, &LegGeometry::hip_y, &LegGeometry::abduction, &LegGeometry::thigh,
-        &LegGeometry::calf, &LegGeometry::foot_radius}) {
-    if (given.*length == 0.0) given.*length = others.*length;
+/// `given` with its zeros from `others`, which are those of `whose`; a note where only some are.
+LegGeometry completed(LegGeometry given, const LegGeometry& others, std::string_view whose,
+                      std::vector<std::string>& notes) {
+  constexpr std::pair<const char*, double LegGeometry::*> kLengths[] = {
+      {"hip_x", &LegGeometry::hip_x},         {"hip_y", &LegGeometry::hip_y},
+      {"abduction", &LegGeometry::abduction}, {"thigh", &LegGeometry::thigh},
+      {"calf", &LegGeometry::calf},           {"foot_radius", &LegGeometry::foot_radius}};
+  const bool states_some = given != LegGeometry();
+  std::vector<std::string> taken;
+  for (const auto& [name, length] : kLengths) {
+    if (given.*length != 0.0) continue;
+    given.*length = others.*length;
+    taken.push_back(fmt::format("{} {} m", name, others.*length));
+  }
+  if (states_some && !taken.empty()) {
+    notes.push_back(
+        fmt::format("leg geometry: {} of {}, since leg_geometry does not state them (or as 0)",
+                    fmt::join(taken, ", "), whose));
   }
   return given;
 }
@@ -143,18 +157,18 @@ WithLegs with_legs(const RecordingConfig& given, MessageSource& bag, const State
   WithLegs with{given};
   LegGeometry& legs = with.config.leg_geometry;
   if (const auto recorded = recorded_legs(bag)) {
-    legs = completed(given.leg_geometry, *recorded);
+    legs = completed(given.leg_geometry, *recorded, "the recording's scenario", notes);
     if (!states_some && legs != kAssumedLegs) {
       notes.push_back("leg geometry: as the recording's scenario states it (robot.legs)");
     }
   } else if (state != nullptr) {
-    legs = completed(given.leg_geometry, *state->geometry);
+    legs = completed(given.leg_geometry, *state->geometry, state->robot, notes);
     if (states_some) return with;
     notes.push_back(fmt::format(
         "leg geometry: that of {}, as the message type {} suggests (leg_geometry)", state->robot,
         state->type));
   } else {
-    legs = completed(given.leg_geometry, kAssumedLegs);
+    legs = completed(given.leg_geometry, kAssumedLegs, "a Unitree Go1", notes);
     with.known = states_some;
   }
   return with;

@@ -410,8 +410,10 @@ void RecordingReader::Impl::warn_of_missing(Role role) {
   const auto lost = many_missing(role, each, unset == counts.end() ? 0 : unset->second);
   if (!lost) return;
   counts[fmt::format("{}_messages_missing", name_of(role))] = static_cast<int>(*lost);
-  plan.setup.warnings.push_back(
-      warning_of_missing(role, topic_of(plan.setup.topics, role), *lost, each));
+  const TopicsConfig& topics = plan.setup.topics;
+  const bool by_joints = role == Role::kLegs && topics.leg_odometry.empty();
+  plan.setup.warnings.push_back(warning_of_missing(
+      role, by_joints ? topics.joint_states : topic_of(topics, role), *lost, each));
 }
 
 /// Warns of stamps of one topic that leapt.
@@ -477,7 +479,7 @@ Result<void> check_legs(const RecordingSetup& setup, const std::string& estimato
   if (setup.has_legs) return {};
   return failure(fmt::format(
       "{}: estimator {} needs leg odometry, which is not found{}; name its topic "
-      "(--topics leg_odometry=/...), or use --estimators lio",
+      "(--topics leg_odometry=/...), or use an estimator without legs, e.g. lio",
       recording, estimator, setup.leg_lack.empty() ? "" : fmt::format(" ({})", setup.leg_lack)));
 }
 

@@ -47,6 +47,9 @@ TEST_F(Calibrate, ARunStartsFromTheFileAndAnotherRobotIsAWarning) {
   const Outcome other =
       aims(run + "--set robot.legs.calf=0.23 --calibration robot.yaml --out other");
   EXPECT_TRUE(holds(other, "is of another robot: legs of other dimensions")) << other.output;
+  EXPECT_TRUE(holds(other, "(calibration of another robot")) << other.output;
+  const std::string rows = read_file(folder_.path() / "other" / "aims_d.health.csv").value();
+  EXPECT_EQ(rows.find(",healthy,"), std::string::npos) << rows;
 }
 
 TEST_F(Calibrate, ARecordingCountsOnceAndATableIsOne) {
@@ -58,6 +61,21 @@ TEST_F(Calibrate, ARecordingCountsOnceAndATableIsOne) {
   const Outcome table = aims("calibrate walk.yaml --quiet -o robot.yaml");
   EXPECT_EQ(table.exit_code, 2) << table.output;
   EXPECT_TRUE(holds(table, "walk.csv: cannot be read")) << table.output;
+}
+
+TEST_F(Calibrate, SeveralSeedsNeedTheSeedOfTheOneRobot) {
+  scenario(testing::kMetreWalk);
+  const Outcome drawn = aims("calibrate my.yaml --seeds 1-2 --quiet -o robot.yaml");
+  EXPECT_EQ(drawn.exit_code, 2) << drawn.output;
+  EXPECT_TRUE(holds(drawn, "2 sequences have a robot drawn for each: expected --robot-seed"))
+      << drawn.output;
+}
+
+TEST_F(Calibrate, ASecondTopicWithoutACommaIsNamed) {
+  const Outcome refused = aims("calibrate a.bag --topics lidar=/a imu=/b --quiet -o robot.yaml");
+  EXPECT_EQ(refused.exit_code, 2) << refused.output;
+  EXPECT_TRUE(holds(refused, "imu=/b: no recording or scenario; --topics takes several"))
+      << refused.output;
 }
 
 TEST_F(Calibrate, AFileThatIsNoneIsOneError) {

@@ -96,6 +96,39 @@ TEST(RobotCalibration, AnotherRobotIsNoticed) {
   EXPECT_TRUE(misfits(one, other).empty()) << "simulated sequences have no topics";
 }
 
+TEST(RobotCalibration, ARecordingWithoutALidarFitsAndHasNoMount) {
+  CalibratedSensors calibrated = some_robot().sensors;
+  calibrated.lidar_translation.x() = 0.2;
+  calibrated.topics = {"/points", "/imu", "/odom"};
+  CalibratedSensors without = some_robot().sensors;
+  without.topics = {"/imu"};
+  without.has_lidar = false;
+  EXPECT_TRUE(misfits(calibrated, without).empty());
+  without.topics = {"/imu_2"};
+  EXPECT_EQ(misfits(calibrated, without).size(), 1U);
+}
+
+TEST_F(RobotCalibrationFile, LegsThatNoRobotHasAreRefused) {
+  RobotCalibration robot = some_robot();
+  CalibratedQuantity& legs = robot.quantities.front();
+  legs.name = "legs_by_feet";
+  legs.values = {0.2, 0.0, 0.0, 0.0, 0.0, 0.0};
+  legs.covariance.clear();
+  for (int row = 0; row < 6; ++row) {
+    for (int column = row; column < 6; ++column) {
+      legs.covariance.push_back(row == column ? 1e-8 : 0.0);
+    }
+  }
+  EXPECT_NE(error_of(robot).find("legs_by_feet: scale x of 0.2: expected at most 0.16"),
+            std::string::npos)
+      << error_of(robot);
+  legs.values[0] = 0.1;
+  EXPECT_EQ(error_of(robot), "");
+  legs.covariance[0] = 1e12;
+  EXPECT_NE(error_of(robot).find("robot.yaml:"), std::string::npos) << error_of(robot);
+  EXPECT_NE(error_of(robot).find("covariance"), std::string::npos) << error_of(robot);
+}
+
 // What estimators start from: the values, with their covariance and no other correlation.
 TEST(RobotPrior, ReplacesTheEntriesOfTheBelief) {
   Belief belief;

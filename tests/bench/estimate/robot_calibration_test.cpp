@@ -65,12 +65,59 @@ TEST(CombinedCalibration, WhatVariesByRunIsKnownByTheSpreadOfThree) {
   EXPECT_NEAR(found.covariance[0], 0.01 * 4.0 / 3.0, 1e-6);
 }
 
-TEST(CombinedCalibration, ARunOfAnotherRobotIsAWarning) {
+// Two runs with other turn-on biases do not make them known better than one.
+TEST(CombinedCalibration, WhatVariesByRunIsNotKnownBetterFromTwoRuns) {
+  const CalibratedQuantity found = of({run("a", 0.1, 1e-3, true), run("b", 0.2, 1e-3, true)});
+  EXPECT_NEAR(found.values[0], 0.15, 1e-6);
+  EXPECT_GT(found.sigma[0], 0.08);
+  EXPECT_FALSE(found.used);
+}
+
+TEST(CombinedCalibration, ARunOfAnotherRobotIsRefusedAndOneOfOtherRatesAWarning) {
   std::vector<CalibrationRun> runs = {run("a", 0.1, 0.01), run("b", 0.1, 0.01)};
-  runs[1].sensors.legs.calf = 0.3;
+  EXPECT_TRUE(check_one_robot(runs));
+  runs[0].sensors.imu_rate = 200.0;
+  runs[1].sensors.imu_rate = 400.0;
+  EXPECT_TRUE(check_one_robot(runs));
   const auto warnings = warnings_of(combined(runs, "aims_d"), runs);
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].find("b is not of the robot of a"), std::string::npos);
+  EXPECT_NE(warnings[0].find("b differs from a: an IMU of 400"), std::string::npos);
+  runs[1].sensors.legs.calf = 0.3;
+  const auto checked = check_one_robot(runs);
+  ASSERT_FALSE(checked);
+  EXPECT_NE(checked.error().message.find("b is not of the robot of a"), std::string::npos);
+}
+
+TEST(CombinedCalibration, NothingLearnedIsAWarning) {
+  const std::vector<CalibrationRun> runs = {run("a", 0.1, 2.0)};
+  const auto warnings = warnings_of(combined(runs, "aims_d"), runs);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("nothing of the robot was learned"), std::string::npos);
+}
+
+TEST(CombinedCalibration, LegsThatNoRobotHasAreNotUsedAndItIsSaid) {
+  CalibrationRun wrong = run("a", 0.2, 0.01);
+  LearnedQuantity& legs = wrong.learned.front();
+  legs.name = "legs_by_feet";
+  const std::vector<CalibrationRun> runs = {wrong};
+  const RobotCalibration calibration = combined(runs, "aims_d");
+  EXPECT_FALSE(calibration.quantities.front().used);
+  const auto warnings = warnings_of(calibration, runs);
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_NE(warnings[0].find("scale x of 0.2: expected at most 0.16"), std::string::npos)
+      << warnings[0];
+}
+
+// Their disagreement is in the file; nothing starts from them.
+TEST(CombinedCalibration, WhatIsOnlyStatedIsNoWarningWhereRunsDisagree) {
+  std::vector<CalibrationRun> runs = {run("a", 0.10, 0.01), run("b", 0.20, 0.01)};
+  for (CalibrationRun& each : runs) {
+    each.learned.push_back(each.learned.front());
+    each.learned.back().name = "joint_delay";
+  }
+  const auto warnings = warnings_of(combined(runs, "aims_d"), runs);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("imu_delay"), std::string::npos);
 }
 
 }  // namespace

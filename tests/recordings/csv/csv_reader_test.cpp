@@ -81,6 +81,14 @@ TEST_F(CsvTable, CarriesAnImuInItsUnits) {
   }
 }
 
+TEST_F(CsvTable, NamesAColumnThatIsEmptyInAllRows) {
+  const std::string forces = "foot_force: [a, b, c, d]\n";
+  EXPECT_EQ(refusal(forces, "time,a,b,c,d\n1,1,2,,4\n2,1,2,nan,4\n"),
+            "t.csv: column 'c' holds no number in any row; expected one in each row in which the "
+            "others of [a, b, c, d] have one");
+  EXPECT_EQ(refusal(forces, "time,a,b,c,d\n1,1,2,,4\n2,1,2,3,4\n"), "accepted");
+}
+
 TEST_F(CsvTable, ReadsEveryUnitOfTime) {
   const std::map<std::string, std::string> cells = {
       {"s", "1.000000002"}, {"ms", "1000.000002"}, {"us", "1000000.002"}, {"ns", "1000000002"}};

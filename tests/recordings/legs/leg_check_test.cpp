@@ -80,6 +80,7 @@ TEST(LegCheck, AGyroThatTheFeetContradictIsNamedWithItsCause) {
     return Fault{.of_imu = [by](ImuSample& imu) { imu.angular_velocity *= by; }};
   };
   expect_named(scaled(57.3), "recording.gyro_unit=deg/s");
+  expect_named(scaled(57.3), "though recording.joint_unit is deg");
   expect_named(scaled(-1.0), "z of the gyro or all joints have the wrong sign");
   expect_named(scaled(0.4), "the scale of the gyro");
 }

@@ -99,6 +99,8 @@ struct TrotOptions {
   std::array<int, kLegCount> feet = {0, 1, 2, 3};
   bool forces = true;
   double knee_sign = 1.0;
+  float load = 60.0F;  ///< of a foot that stands
+  int lost = 0;        ///< of so many messages of the joints one
 };
 
 MessageBytes trot_joints(Time stamp, const test::Trot& trot, double time,
@@ -154,10 +156,11 @@ class RecordedTrot : public test::RecordingTest {
         message.put(std::uint32_t{0});
         message.length(std::size_t{kLegCount});
         for (const int leg : options.feet) {
-          message.put(trot.contact(time)[static_cast<std::size_t>(leg)] ? 60.0F : 0.0F);
+          message.put(trot.contact(time)[static_cast<std::size_t>(leg)] ? options.load : 0.0F);
         }
         robot.add("/foot_forces", forces, now, message);
       }
+      if (options.lost > 0 && k % options.lost == 2) continue;
       robot.add("/joint_states", joint_state_type(), now, trot_joints(now, trot, time, options));
     }
     robot.close();
@@ -213,6 +216,21 @@ TEST_F(RecordedTrot, LengthsOfTheLegsThatNothingStatesAreAWarning) {
   const Recording given = read({}, config);
   EXPECT_EQ(std::ranges::count_if(given.setup.warnings, is_assumed), 0);
   EXPECT_EQ(given.setup.rig.leg_geometry, kGo1) << "the other lengths are assumed";
+  EXPECT_TRUE(given.noted("foot_radius 0.022 m of a Unitree Go1")) << "and it is said";
+}
+
+TEST_F(RecordedTrot, AThresholdThatIsAskedForIsKeptWhereLoadsAreSmall) {
+  RecordingConfig config;
+  EXPECT_TRUE(read({.load = 1.0F}, config).noted("a flag, threshold 0.5"));
+  config.contact_detection = ContactDetection::kThreshold;
+  const Recording none = read({.load = 1.0F}, config);
+  ASSERT_EQ(none.error, "");
+  EXPECT_FALSE(none.noted("a flag, threshold 0.5"));
+}
+
+TEST_F(RecordedTrot, JointsOfWhichMessagesAreMissingAreNamedByTheirTopic) {
+  EXPECT_FALSE(read({}).noted("are missing"));
+  EXPECT_TRUE(read({.lost = 5}).noted("/joint_states: 80 of 399 messages are missing"));
 }
 
 TEST_F(RecordedTrot, KneesOfTheWrongSignAreNamedAtTheEnd) {

@@ -175,6 +175,9 @@ TEST(RecordingConfig, EveryFieldIsSetByItsKey) {
   EXPECT_TRUE(assign(fields, "T_imu_lidar.translation", "[0.1, 0, 0.2]"));
   EXPECT_TRUE(assign(fields, "foot_names", "[FR, FL, RR, RL]"));
   EXPECT_TRUE(assign(fields, "leg_geometry.thigh", "0.3"));
+  EXPECT_FALSE(assign(fields, "leg_geometry.foot_radius", "5"));
+  EXPECT_FALSE(assign(fields, "leg_geometry.hip_x", "3"));
+  EXPECT_FALSE(assign(fields, "contact_threshold", "-5"));
   EXPECT_EQ(config.imu_unit, ImuUnit::kGravities);
   EXPECT_EQ(config.foot_names.at(1), "FL");
   EXPECT_EQ(config.leg_geometry.thigh, 0.3);
