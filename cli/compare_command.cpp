@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "bench/jobs/job_store.hpp"
 #include "bench/studies/comparison.hpp"
 #include "cli/commands.hpp"
 #include "cli/json_output.hpp"
@@ -34,8 +35,8 @@ std::optional<std::size_t> too_few_seeds(const Comparison& comparison) {
 }
 
 void print_comparison(const Comparison& comparison) {
-  print_out("{}\n{}\n{}\n", to_text(change_table(comparison)), rule_text(comparison),
-            summary_text(comparison));
+  print_out("{}\n{}\n{}\n{}", to_text(change_table(comparison)), rule_text(comparison),
+            summary_text(comparison), settings_text(comparison));
   for (const std::string& run : comparison.only_before) print_out("only before: {}\n", run);
   for (const std::string& run : comparison.only_after) print_out("only after: {}\n", run);
   for (const std::string& run : comparison.invalid) print_out("INVALID RUN left out: {}\n", run);
@@ -46,7 +47,9 @@ int compare_command(const CompareArguments& arguments) {
   if (!before) return refuse(kCompareName, before.error(), arguments.json);
   const auto after = read_results(arguments.after);
   if (!after) return refuse(kCompareName, after.error(), arguments.json);
-  const Comparison comparison = compare(*before, *after);
+  const Comparison comparison =
+      with_settings(compare(*before, *after), JobStore(arguments.before).settings(),
+                    JobStore(arguments.after).settings());
   if (arguments.json) {
     print_json(comparison_json(comparison, arguments.before, arguments.after));
   } else {

@@ -42,6 +42,9 @@ int merge_command(const MergeArguments& arguments) {
   if (folders.size() > 1 && arguments.shared.out.empty()) {
     return bad_input("merge", {"several folders: expected --out"});
   }
+  if (auto right = check_direction("--score", arguments.objective.score); !right) {
+    return bad_input("merge", right.error());
+  }
   const fs::path out =
       arguments.shared.out.empty() ? folders.front() : fs::path(arguments.shared.out);
   const auto sweep = merge_sweeps(folders);

@@ -144,6 +144,13 @@ Result<void> JobStore::check_settings(const std::vector<std::string>& settings) 
                   folder_.string(), options_text(*there), options_text(here))));
 }
 
+std::vector<std::string> JobStore::settings() const {
+  std::istringstream lines(read_file(folder_ / kSettingsFile).value_or(""));
+  std::vector<std::string> settings;
+  for (std::string line; std::getline(lines, line);) settings.push_back(line);
+  return settings;
+}
+
 Result<void> JobStore::keep_settings(const std::vector<std::string>& settings) const {
   return write_file_atomically(folder_ / kSettingsFile,
                                fmt::format("{}", fmt::join(settings, "\n")));

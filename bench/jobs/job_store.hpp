@@ -52,6 +52,8 @@ class JobStore {
 
   /// Error when the folder holds jobs of scenarios with other settings ("key=value") on top.
   Result<void> check_settings(const std::vector<std::string>& settings) const;
+  /// The settings of its scenarios; none where the folder does not say.
+  std::vector<std::string> settings() const;
   /// Notes the settings that its jobs have.
   Result<void> keep_settings(const std::vector<std::string>& settings) const;
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace aims {
 namespace {
@@ -70,16 +71,29 @@ std::optional<Time> within_span(const Trajectory& trajectory, Time stamp, Durati
   return clamped;
 }
 
+std::optional<Time> covered(const Trajectory& trajectory, Time stamp,
+                            const PoseCoverage& coverage) {
+  const std::optional<Time> inside = within_span(trajectory, stamp, coverage.edge);
+  if (!inside) return std::nullopt;
+  const auto after = std::ranges::lower_bound(trajectory, *inside, {}, &StampedPose::stamp);
+  if (after == trajectory.begin() || after->stamp == *inside) return inside;
+  const Time before = std::prev(after)->stamp;
+  if (after->stamp - before <= coverage.gap) return inside;
+  const Time nearer = *inside - before < after->stamp - *inside ? before : after->stamp;
+  if (std::abs(nearer - *inside) > coverage.edge) return std::nullopt;
+  return nearer;
+}
+
 std::vector<SegmentDistance> segment_distances(const Trajectory& estimate, const Trajectory& truth,
                                                std::span<const Segment> segments, double min_length,
-                                               Duration edge) {
+                                               const PoseCoverage& coverage) {
   std::vector<SegmentDistance> distances;
   for (const Segment& segment : segments) {
     const auto whole = distance_between(truth, segment.begin, segment.end);
     if (!whole || *whole < min_length) continue;
     SegmentDistance distance{segment, *whole, std::nullopt, std::nullopt, std::nullopt};
-    const auto begin = within_span(estimate, segment.begin, edge);
-    const auto end = within_span(estimate, segment.end, edge);
+    const auto begin = covered(estimate, segment.begin, coverage);
+    const auto end = covered(estimate, segment.end, coverage);
     const auto true_distance = begin && end ? distance_between(truth, *begin, *end) : std::nullopt;
     if (true_distance && *true_distance >= min_length) {
       const double estimated = *distance_between(estimate, *begin, *end);

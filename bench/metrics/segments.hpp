@@ -40,11 +40,18 @@ struct SegmentDistance {
   std::optional<double> signed_percent;        ///< 100 (d_hat_i - d_i) / d_i; < 0: shortened
 };
 
+/// Where the estimate has poses.
+struct PoseCoverage {
+  Duration edge = 0;  ///< an end of a segment this near to a pose moves to it
+  Duration gap = 0;   ///< between poses further apart there is no estimate
+};
+
 /// Distances of every segment at least `min_length` [m] long. A segment's end up to `edge` outside
-/// the estimate's span moves to that span's border for the truth and the estimate alike.
+/// the estimate's span, or in a gap of the estimate, moves to the pose there for the truth and the
+/// estimate alike; further from any pose the segment has no estimate.
 std::vector<SegmentDistance> segment_distances(const Trajectory& estimate, const Trajectory& truth,
                                                std::span<const Segment> segments, double min_length,
-                                               Duration edge);
+                                               const PoseCoverage& coverage);
 
 /// M_list over all segments in percent: 100 sum |d_hat_i - d_i| / sum d_i (unnumbered equation of
 /// the paper's section III.A); none when there is no segment or one lacks its estimate.
@@ -52,5 +59,8 @@ std::optional<double> m_list_percent(std::span<const SegmentDistance> distances)
 
 /// `stamp`, or the nearer end of the trajectory's span when that is at most `edge` away.
 std::optional<Time> within_span(const Trajectory& trajectory, Time stamp, Duration edge);
+
+/// The same, and within a gap the nearer pose when that is at most `edge` away.
+std::optional<Time> covered(const Trajectory& trajectory, Time stamp, const PoseCoverage& coverage);
 
 }  // namespace aims

@@ -159,6 +159,12 @@ const Score* listed(std::string_view key) {
   });
 }
 
+/// Of parts of an object: errors with a sign, of which neither end is better.
+bool is_signed(std::string_view key) { return key.starts_with("drift_m.end"); }
+
+/// Of numbers that the list lacks: what the data and the machine decide, not the estimator.
+bool is_no_score(std::string_view key) { return key.starts_with("counts."); }
+
 /// Of numbers that the list lacks or has as parts of an object.
 bool is_larger_better(std::string_view key) {
   return key == "poses" || key == "health.healthy_s" ||
@@ -180,6 +186,7 @@ const Score& score_at(std::string_view key) { return *listed(key); }
 
 Better better_of(std::string_view key) {
   if (is_larger_better(key)) return Better::kLarger;
+  if (is_signed(key) || is_no_score(key)) return Better::kNeither;
   const auto* const score = listed(key);
   return score == kScores.end() ? Better::kSmaller : score->better;
 }

@@ -43,7 +43,10 @@ struct ScoreChange {
 };
 
 struct Comparison {
-  std::vector<ScoreChange> changes;      ///< of every score on both sides
+  std::vector<ScoreChange> changes;  ///< of every score on both sides
+  /// Where settings on top of the scenarios differ ("key=value"), those of each side alone.
+  std::vector<std::string> set_before;
+  std::vector<std::string> set_after;
   std::vector<std::string> only_before;  ///< "scenario, estimator, seed 1,2"
   std::vector<std::string> only_after;
   std::vector<std::string> invalid;    ///< runs left out: "before: corridor seed 3: the robot fell"
@@ -55,6 +58,13 @@ struct Comparison {
 /// (headline_scores()) and 5 % of the value before; one of the successes, when McNemar's exact p is
 /// at most 0.05.
 Comparison compare(const StoredResults& before, const StoredResults& after);
+
+/// The comparison, noting settings that only one of the sides has.
+Comparison with_settings(Comparison comparison, std::vector<std::string> before,
+                         std::vector<std::string> after);
+
+/// What is set on one side alone, and whether it changes the task; empty where nothing is.
+std::string settings_text(const Comparison& comparison);
 
 /// "better", "worse", "too few", "small", "none", "same".
 std::string_view name_of(ChangeVerdict verdict);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include "bench/scoring/columns.hpp"
@@ -76,6 +78,7 @@ std::string comparison_markdown(const Comparison& comparison, const std::string&
                                 const std::string& after) {
   std::string text =
       fmt::format("# {} against {}\n\n{}\n", after, before, summary_text(comparison));
+  if (const std::string set = settings_text(comparison); !set.empty()) text += "\n" + set;
   text += fmt::format("\n{}\n{}", to_markdown(change_table(comparison)), rule_text(comparison));
   text += list_markdown("Only before", comparison.only_before);
   text += list_markdown("Only after", comparison.only_after);
@@ -107,6 +110,8 @@ Json comparison_json(const Comparison& comparison, const std::string& before,
   return {{"schema", kComparisonSchema},
           {"before", before},
           {"after", after},
+          {"set_before", comparison.set_before},
+          {"set_after", comparison.set_after},
           {"compared", comparison.changes.size()},
           {"better", count(comparison, ChangeVerdict::kBetter)},
           {"worse", count(comparison, ChangeVerdict::kWorse)},
@@ -116,6 +121,32 @@ Json comparison_json(const Comparison& comparison, const std::string& before,
           {"only_before", comparison.only_before},
           {"only_after", comparison.only_after},
           {"invalid", comparison.invalid}};
+}
+
+Comparison with_settings(Comparison comparison, std::vector<std::string> before,
+                         std::vector<std::string> after) {
+  std::ranges::sort(before);
+  std::ranges::sort(after);
+  std::ranges::set_difference(before, after, std::back_inserter(comparison.set_before));
+  std::ranges::set_difference(after, before, std::back_inserter(comparison.set_after));
+  return comparison;
+}
+
+std::string settings_text(const Comparison& comparison) {
+  const auto& before = comparison.set_before;
+  const auto& after = comparison.set_after;
+  if (before.empty() && after.empty()) return "";
+  const auto of_task = [](const std::string& setting) {
+    return !setting.starts_with("estimators.") && !setting.starts_with("run.");
+  };
+  const bool task = std::ranges::any_of(before, of_task) || std::ranges::any_of(after, of_task);
+  return fmt::format(
+      "Set on one side alone: before: {}; after: {}.{}\n",
+      before.empty() ? "nothing" : fmt::format("{}", fmt::join(before, ", ")),
+      after.empty() ? "nothing" : fmt::format("{}", fmt::join(after, ", ")),
+      task
+          ? " The sequences differ: changes are those of the task too, not of the estimators alone."
+          : "");
 }
 
 std::string summary_text(const Comparison& comparison) {

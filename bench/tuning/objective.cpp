@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "bench/metrics/statistics.hpp"
+#include "bench/scoring/score_list.hpp"
 #include "bench/scoring/validity.hpp"
 
 namespace aims {
@@ -260,6 +261,14 @@ std::optional<double> gain_over(const std::optional<double>& defaults,
                                 const std::optional<double>& best) {
   if (!defaults || !best || !(*defaults > 0.0)) return std::nullopt;
   return 1.0 - *best / *defaults;
+}
+
+Result<void> check_direction(const std::string& key, const std::string& score) {
+  if (better_of(score) == Better::kSmaller) return {};
+  return failure(
+      fmt::format("{}: less of '{}' is not better, and objectives are minimized; expected a score "
+                  "of which less is better, e.g. ate_yaw_m",
+                  key, score));
 }
 
 Objective objective_for(Objective objective, const ResponseTable& table) {

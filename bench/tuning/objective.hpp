@@ -127,6 +127,9 @@ std::optional<double> objective_at(const ResponseTable& table, const Objective& 
 std::optional<double> gain_over(const std::optional<double>& defaults,
                                 const std::optional<double>& point);
 
+/// Error, begun with `key`, for a score of which less is not better: objectives are minimized.
+Result<void> check_direction(const std::string& key, const std::string& score);
+
 /// The objective where the table has default runs, else the same of plain scores.
 Objective objective_for(Objective objective, const ResponseTable& table);
 

@@ -66,15 +66,6 @@ Result<void> read_ranges(TuneTask& task, const Scenario& base) {
   return {};
 }
 
-/// Error for a score of which less is not better: objectives are minimized.
-Result<void> check_direction(const std::string& key, const std::string& score) {
-  if (better_of(score) == Better::kSmaller) return {};
-  return failure(
-      fmt::format("{}: less of '{}' is not better, and objectives are minimized; expected a score "
-                  "of which less is better, e.g. ate_yaw_m",
-                  key, score));
-}
-
 Result<void> check_objectives(const TunePlan& plan, const Scenarios& scenarios) {
   for (std::size_t i = 0; i < plan.objectives.size(); ++i) {
     const std::string key = fmt::format("objectives.{}.score", i);

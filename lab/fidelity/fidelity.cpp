@@ -9,8 +9,8 @@
 #include <utility>
 #include <variant>
 
-#include "lab/fidelity/allan_deviation.hpp"
 #include "bench/metrics/segments.hpp"
+#include "lab/fidelity/allan_deviation.hpp"
 #include "sim/environment/ray_caster.hpp"
 #include "sim/simulation.hpp"
 
@@ -182,8 +182,8 @@ void add_segments(const Walk& walk, const LegOdometryConfig& config,
                   std::vector<LegDrift>& drifts) {
   const Trajectory truth = body_trajectory(walk.truth);
   const auto segments = segments_of(walk.truth.waypoint_times);
-  for (const SegmentDistance& each :
-       segment_distances(walk.leg_odometry, truth, segments, kShortestSegment, kEdge)) {
+  for (const SegmentDistance& each : segment_distances(
+           walk.leg_odometry, truth, segments, kShortestSegment, {.edge = kEdge, .gap = kSecond})) {
     if (!each.signed_percent) continue;
     const double heading = std::remainder(heading_error(walk, truth, each.segment.end) -
                                               heading_error(walk, truth, each.segment.begin),

@@ -10,7 +10,7 @@ namespace {
 
 std::vector<SegmentDistance> distances_of(const Trajectory& estimate, Duration edge = kSecond) {
   return segment_distances(estimate, test::true_walk(), segments_of(test::walk_waypoint_times()),
-                           1.0, edge);
+                           1.0, {.edge = edge, .gap = 2 * kSecond});
 }
 
 TEST(Segments, AreNamedByTheirPoints) {
@@ -110,13 +110,26 @@ TEST(MList, HasNoValueWhereTheEstimateIsMissing) {
   EXPECT_FALSE(m_list_percent({}));
 }
 
+TEST(MList, NeedsPosesNearTheEndsOfASegment) {
+  Trajectory estimate = test::perfect_walk();
+  const Time there = from_seconds(test::kThere);
+  std::erase_if(estimate, [there](const StampedPose& each) {
+    return std::abs(each.stamp - there) < 3 * kSecond;
+  });
+  const auto distances = distances_of(estimate);
+  ASSERT_FALSE(distances.empty());
+  EXPECT_FALSE(distances[0].estimated_distance_m) << "interpolated over a gap of 6 s at its end";
+  EXPECT_FALSE(m_list_percent(distances));
+}
+
 TEST(MList, LeavesOutATurnOnTheSpot) {
   const std::vector<WaypointTime> waypoint_times = {{"a", 0},
                                                     {"b", from_seconds(test::kThere)},
                                                     {"b2", from_seconds(test::kBackFrom)},
                                                     {"a", from_seconds(test::kEnd)}};
-  const auto distances = segment_distances(test::perfect_walk(), test::true_walk(),
-                                           segments_of(waypoint_times), 1.0, kSecond);
+  const auto distances =
+      segment_distances(test::perfect_walk(), test::true_walk(), segments_of(waypoint_times), 1.0,
+                        {.edge = kSecond, .gap = 2 * kSecond});
   ASSERT_EQ(distances.size(), 2U);
   EXPECT_EQ(distances[1].segment.name, "b2-a");
 }

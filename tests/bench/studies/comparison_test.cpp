@@ -2,6 +2,7 @@
 #include "bench/studies/comparison.hpp"
 
 #include <gtest/gtest.h>
+#include <utility>
 
 #include <cmath>
 #include <stdexcept>
@@ -189,6 +190,22 @@ TEST(Compare, SuccessesAreComparedByMcNemarsTest) {
   EXPECT_NEAR(lost.test.p, 2.0 / 256.0, 1e-12);
   EXPECT_EQ(lost.verdict, ChangeVerdict::kWorse);
   EXPECT_NEAR(lost.test.change, -8.0 / 9.0, 1e-12);
+}
+
+TEST(Compare, NamesSettingsOfOneSideAndWhetherTheyAreOfTheTask) {
+  const auto text = [](std::vector<std::string> before, std::vector<std::string> after) {
+    return settings_text(with_settings({}, std::move(before), std::move(after)));
+  };
+  EXPECT_EQ(text({"scene.corridor.length=10"}, {"scene.corridor.length=10"}), "");
+  const std::string task = text({"lidar.columns=300", "scene.corridor.length=10"},
+                                {"scene.corridor.length=14", "lidar.columns=300"});
+  EXPECT_NE(task.find("before: scene.corridor.length=10; after: scene.corridor.length=14. The "
+                      "sequences differ"),
+            std::string::npos)
+      << task;
+  const std::string own = text({}, {"estimators.aims.degeneracy.eta=0"});
+  EXPECT_NE(own.find("before: nothing; after: estimators.aims"), std::string::npos) << own;
+  EXPECT_EQ(own.find("sequences differ"), std::string::npos) << own;
 }
 
 TEST(StoredResults, OfAnEmptyFolderAreAnError) {

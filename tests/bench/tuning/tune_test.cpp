@@ -173,7 +173,8 @@ TEST(TunePlan, RefusalSaysWhatWasExpected) {
 }
 
 TEST(TunePlan, RefusesScoresOfWhichLessIsNotBetter) {
-  for (const char* score : {"coverage", "success_1_percent"}) {
+  for (const char* score :
+       {"coverage", "success_1_percent", "drift_m.end.heading_rad", "counts.leg.lost"}) {
     TunePlan plan = small_plan();
     plan.objectives[0].score = score;
     const std::string refusal = refusal_of(plan);
