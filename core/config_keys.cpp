@@ -90,8 +90,9 @@ std::string proposal_for(const std::vector<std::string>& keys, std::string_view 
   std::vector<std::string> similar = same_name;
   for (const std::string& each : keys) {
     if (!same_name.empty()) break;
-    const bool near = !near_match(name, {each.substr(each.rfind('.') + 1)}).empty();
-    if (near) similar.push_back(each);
+    const std::string last = each.substr(each.rfind('.') + 1);
+    const bool exchanged = std::ranges::is_permutation(name, last);  // "eat" for "eta"
+    if (exchanged || !near_match(name, {last}).empty()) similar.push_back(each);
   }
   const std::string nearest = near_match(key, similar);
   return nearest.empty() && !same_name.empty() ? same_name.front() : nearest;
