@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <iterator>
 #include <string_view>
 #include <utility>
 
 #include "bench/metrics/statistics.hpp"
+#include "core/shell_word.hpp"
 #include "estimator/estimator_spec.hpp"
 
 namespace aims {
@@ -93,18 +93,6 @@ std::vector<RunRecord> valid_ones(std::span<const RunRecord> runs) {
   return valid;
 }
 
-/// The word as a POSIX shell reads it back.
-std::string quoted(const std::string& word) {
-  const auto is_plain = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-           std::string_view("-_./=,:+@%").find(c) != std::string_view::npos;
-  };
-  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return text + "'";
-}
-
 /// Whether a setting of the scenario has an effect where `spec` alone runs.
 bool applies(const std::string& setting, const Scenario& scenario, const std::string& spec) {
   if (is_run_setting(setting)) return false;
@@ -179,13 +167,13 @@ std::string reproducing_command(const Scenario& scenario, const ExpectationCheck
   const std::string& label = check.expectation.estimator;
   const auto asked =
       std::ranges::find_if(scenario.run, [&](const auto& spec) { return label_of(spec) == label; });
-  std::string command = fmt::format("aims run {}", quoted(file));
+  std::string command = fmt::format("aims run {}", shell_word(file));
   if (!check.seeds.empty()) command += fmt::format(" --seeds {}", fmt::join(check.seeds, ","));
   const std::string spec = asked != scenario.run.end() ? *asked : label;
-  if (!spec.empty()) command += " --estimators " + quoted(spec);
+  if (!spec.empty()) command += " --estimators " + shell_word(spec);
   for (const std::string& setting : scenario.overrides) {
     const bool kept = spec.empty() ? !is_run_setting(setting) : applies(setting, scenario, spec);
-    if (kept) command += " --set " + quoted(setting);
+    if (kept) command += " --set " + shell_word(setting);
   }
   return command;
 }

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <set>
@@ -12,24 +11,13 @@
 #include <system_error>
 #include <vector>
 
+#include "core/shell_word.hpp"
 #include "render/page/page_data.hpp"
 
 namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A word as a shell reads it back; plain ones as they are.
-std::string quoted(const std::string& word) {
-  std::string text = "'";
-  bool plain = !word.empty();
-  for (const char c : word) {
-    const bool safe = std::isalnum(static_cast<unsigned char>(c)) != 0;
-    plain = plain && (safe || std::string_view("-._/").find(c) != std::string_view::npos);
-    text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  }
-  return plain ? word : text + "'";
-}
 
 /// A path that was given in the working directory, as seen from `folder`. One that is not there any
 /// more stays as it was given.
@@ -79,7 +67,7 @@ std::string python_path(const std::set<std::string>& modules, const fs::path& fo
     if (std::ranges::find(folders, found) == folders.end()) folders.push_back(std::move(found));
   }
   if (folders.empty()) return "";
-  return fmt::format("PYTHONPATH={} ", quoted(fmt::format("{}", fmt::join(folders, ":"))));
+  return fmt::format("PYTHONPATH={} ", shell_word(fmt::format("{}", fmt::join(folders, ":"))));
 }
 
 }  // namespace
@@ -91,7 +79,7 @@ Json repeat_command_json(const RunFolder& run) {
     const Json bag = member(run.estimate, "bag");
     if (!bag.is_string()) return {};
     return fmt::format("{}aims estimate {} --config config.yaml --out again", path,
-                       quoted(seen_from(run.path, bag.get<std::string>())));
+                       shell_word(seen_from(run.path, bag.get<std::string>())));
   }
   const Json seed = member(run.scores, "seed");
   const std::string seeds =
