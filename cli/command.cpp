@@ -111,6 +111,10 @@ std::string unknown_argument(const CLI::App& command, const std::vector<std::str
   for (const CLI::Option* each : command.get_options()) {
     for (const std::string& known : each->get_lnames()) names.push_back("--" + known);
   }
+  if (std::find(names.begin(), names.end(), name) != names.end()) {
+    return fmt::format("option '{}' stands before its command; give it after '{}'", name,
+                       command.get_name());
+  }
   const std::string near = near_match(name, names);
   return near.empty() ? fmt::format("unknown option '{}'", name)
                       : fmt::format("unknown option '{}'; did you mean '{}'?", name, near);

@@ -22,30 +22,15 @@ void describe(Fields& f, LegDeadReckoningConfig& c) {
 Requirements requirements_of(const LegDeadReckoningConfig&) { return {.legs = true}; }
 
 LegDeadReckoning::LegDeadReckoning(const LegDeadReckoningConfig& config, const SensorRig& rig)
-    : rig_(rig),
-      queue_(config.queue, ImuPropagationConfig(), rig.imu_rate_hz, config.max_speed),
+    : QueuedEstimator(config.queue, rig, {}, config.max_speed),
       health_({.legs = true}, ImuPropagationConfig().gravity) {}
 
-void LegDeadReckoning::consume(const Delivery& delivery) {
-  queue_.push(delivery);
-  process_ready();
-}
-
 void LegDeadReckoning::finish() {
-  queue_.close();
-  process_ready();
+  QueuedEstimator::finish();
   for (Time stamp : waiting_) {
     if (last_) result_.trajectory.push_back({stamp, last_->pose});
   }
   waiting_.clear();
-}
-
-void LegDeadReckoning::process_ready() {
-  while (const std::optional<Correction> next = queue_.pop()) {
-    std::visit([this](const auto& each) { process(each); }, *next);
-  }
-  for (const auto& [name, count] : queue_.counts()) result_.counts[name] = count;
-  judge_health();
 }
 
 void LegDeadReckoning::judge_health() {
@@ -58,7 +43,7 @@ void LegDeadReckoning::judge_health() {
   speed_ = 0.0;
 }
 
-void LegDeadReckoning::process(const LegOdometrySample& sample) {
+void LegDeadReckoning::process_legs(const LegOdometrySample& sample) {
   const Pose T_odom_body = sample.T_odom_base * rig_.T_body_base.inverse();
   if (!T_start_odom_) T_start_odom_ = start_transform(T_odom_body);
   const StampedPose now{sample.stamp, *T_start_odom_ * T_odom_body};
@@ -81,6 +66,6 @@ void LegDeadReckoning::process(const LegOdometrySample& sample) {
   queue_.imu().forget_before(sample.stamp);
 }
 
-void LegDeadReckoning::process(const LidarScanPtr& scan) { waiting_.push_back(scan->end); }
+void LegDeadReckoning::process_scan(const LidarScanPtr& scan) { waiting_.push_back(scan->end); }
 
 }  // namespace aims

@@ -5,9 +5,7 @@
 #include <vector>
 
 #include "estimator/aims/health_monitor.hpp"
-#include "estimator/estimator.hpp"
-#include "estimator/estimator_config.hpp"
-#include "estimator/filter/measurement_queue.hpp"
+#include "estimator/queued_estimator.hpp"
 
 namespace aims {
 
@@ -23,26 +21,21 @@ Requirements requirements_of(const LegDeadReckoningConfig& config);
 
 /// Leg odometry alone, as the robot reports it: its poses in the body frame, transformed so that
 /// the first has zero position and yaw, and interpolated at the end of each scan.
-class LegDeadReckoning : public Estimator {
+class LegDeadReckoning : public QueuedEstimator {
  public:
   LegDeadReckoning(const LegDeadReckoningConfig& config, const SensorRig& rig);
 
-  void consume(const Delivery& delivery) override;
   void finish() override;
-  const EstimatorResult& result() const override { return result_; }
   void forget_rows() override { keep_last_rows(result_); }
   std::vector<Eigen::Vector3f> map_points() const override { return {}; }
 
  private:
-  void process_ready();
-  void process(const LegOdometrySample& sample);
-  void process(const LidarScanPtr& scan);
+  void process_legs(const LegOdometrySample& sample) override;
+  void process_scan(const LidarScanPtr& scan) override;
+  void end_delivery() override { judge_health(); }
   void judge_health();
 
-  SensorRig rig_;
-  MeasurementQueue queue_;
   HealthMonitor health_;
-  EstimatorResult result_;
   std::optional<Time> start_;   ///< stamp of the first sample
   std::optional<Time> judged_;  ///< arrival
   double speed_ = 0.0;          ///< largest between two samples since the last judgement [m/s]

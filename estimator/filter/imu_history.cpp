@@ -120,6 +120,14 @@ std::optional<Time> ImuHistory::newest() const {
   return time_of(samples_.back());
 }
 
+std::vector<ImuSample> ImuHistory::samples_between(std::optional<Time> after, Time until) const {
+  std::vector<ImuSample> samples;
+  for (const ImuSample& sample : samples_) {
+    if ((!after || sample.stamp > *after) && sample.stamp <= until) samples.push_back(sample);
+  }
+  return samples;
+}
+
 void ImuHistory::forget_before(Time stamp) {
   std::size_t old = 0;
   while (samples_.size() > old + kBridgeSamples && time_of(samples_[old + 1]) < stamp) ++old;

@@ -49,6 +49,9 @@ class ImuHistory {
   /// With their own stamps.
   const std::vector<ImuSample>& samples() const { return samples_; }
 
+  /// Those of (after, until], likewise.
+  std::vector<ImuSample> samples_between(std::optional<Time> after, Time until) const;
+
  private:
   InertialSegment measured_segment(std::size_t index) const;
   InertialSegment bridge(std::size_t next) const;

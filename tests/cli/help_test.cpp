@@ -104,6 +104,7 @@ TEST_F(Help, UnknownCommandsAndOptionsAreRefusedWithANearMatch) {
   refused("fly", "unknown command 'fly'; expected one of run, suite, sweep");
   refused("sweep --params a=1:2:3",
           "aims sweep: unknown option '--params'; did you mean '--param'?");
+  refused("--seeds 1 run demo", "option '--seeds' stands before its command; give it after 'run'");
   refused("list corridor", "aims list: unexpected argument 'corridor'");
 }
 

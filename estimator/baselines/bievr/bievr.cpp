@@ -11,8 +11,6 @@
 namespace aims::bievr {
 namespace {
 
-constexpr double kAnySpeed = std::numeric_limits<double>::infinity();
-
 /// A map of fewer voxels is extended by predicted scans.
 constexpr std::size_t kMinVoxels = 6;
 
@@ -39,30 +37,10 @@ std::vector<SeriesInfo> scan_series() {
 }  // namespace
 
 Bievr::Bievr(const Config& config, const SensorRig& rig)
-    : config_(config),
-      rig_(rig),
-      queue_(config.queue, ImuPropagationConfig(), rig.imu_rate_hz, kAnySpeed),
+    : QueuedEstimator(config.queue, rig, scan_series()),
+      config_(config),
       map_(config.map),
-      window_(config.inertial) {
-  result_.diagnostics.series = scan_series();
-}
-
-void Bievr::consume(const Delivery& delivery) {
-  queue_.push(delivery);
-  process_ready();
-}
-
-void Bievr::finish() {
-  queue_.close();
-  process_ready();
-}
-
-void Bievr::process_ready() {
-  while (const std::optional<Correction> next = queue_.pop()) {
-    if (const auto* scan = std::get_if<LidarScanPtr>(&*next)) process(**scan);
-  }
-  for (const auto& [name, count] : queue_.counts()) result_.counts[name] = count;
-}
+      window_(config.inertial) {}
 
 /// Takes the mean specific force for vertical and what exceeds gravity for bias.
 bool Bievr::start(Time end) {

@@ -9,24 +9,21 @@
 #include "estimator/baselines/bievr/inertial_window.hpp"
 #include "estimator/baselines/bievr/registration.hpp"
 #include "estimator/baselines/bievr/sampling.hpp"
-#include "estimator/estimator.hpp"
+#include "estimator/queued_estimator.hpp"
 
 namespace aims::bievr {
 
 /// BIEVR-LIO: scans are registered with images of heights over the planes of voxels, starting at
 /// the prediction of the IMU; its biases and the velocity follow from the registered poses
 /// (docs/baselines/bievr.md). The z axis of its world is vertical.
-class Bievr : public Estimator {
+class Bievr : public QueuedEstimator {
  public:
   Bievr(const Config& config, const SensorRig& rig);
 
-  void consume(const Delivery& delivery) override;
-  void finish() override;
-  const EstimatorResult& result() const override { return result_; }
   std::vector<Eigen::Vector3f> map_points() const override { return map_.points(); }
 
  private:
-  void process_ready();
+  void process_scan(const LidarScanPtr& scan) override { process(*scan); }
   void process(const LidarScan& scan);
   bool start(Time end);
   void follow(const LidarScan& scan);
@@ -37,9 +34,6 @@ class Bievr : public Estimator {
   void record(const Sample& sample, const Registered& registered);
 
   Config config_;
-  SensorRig rig_;
-  MeasurementQueue queue_;
-  EstimatorResult result_;
   BumpMap map_;
   InertialWindow window_;
 

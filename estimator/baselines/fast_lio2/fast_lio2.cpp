@@ -50,8 +50,6 @@ constexpr double kGravity = 9.81;  ///< of the scaled specific force [m/s^2]
 /// Length of the state's gravity: the published program has another constant there [m/s^2].
 constexpr double kStateGravity = 9.809;
 
-constexpr double kAnySpeed = std::numeric_limits<double>::infinity();
-
 /// A scan with fewer points is not matched, and does not begin a map.
 constexpr std::size_t kMinPoints = 5;
 
@@ -86,39 +84,10 @@ std::vector<Eigen::Vector3f> in_world(const State& x, const std::vector<Eigen::V
 }  // namespace
 
 FastLio2::FastLio2(const Config& config, const SensorRig& rig)
-    : config_(config),
-      rig_(rig),
-      queue_(config.queue, ImuPropagationConfig(), rig.imu_rate_hz, kAnySpeed),
+    : QueuedEstimator(config.queue, rig, scan_series()),
+      config_(config),
       map_(config.map.voxel),
-      cube_(config.map) {
-  result_.diagnostics.series = scan_series();
-}
-
-void FastLio2::consume(const Delivery& delivery) {
-  queue_.push(delivery);
-  process_ready();
-}
-
-void FastLio2::finish() {
-  queue_.close();
-  process_ready();
-}
-
-void FastLio2::process_ready() {
-  while (const std::optional<Correction> next = queue_.pop()) {
-    if (const auto* scan = std::get_if<LidarScanPtr>(&*next)) process(**scan);
-  }
-  for (const auto& [name, count] : queue_.counts()) result_.counts[name] = count;
-}
-
-std::vector<ImuSample> FastLio2::new_samples(Time end) {
-  std::vector<ImuSample> samples;
-  for (const ImuSample& sample : queue_.imu().samples()) {
-    const bool fresh = !last_sample_ || sample.stamp > last_sample_->stamp;
-    if (fresh && sample.stamp <= end) samples.push_back(sample);
-  }
-  return samples;
-}
+      cube_(config.map) {}
 
 /// Averages the first samples. The frame of the start is the world: gravity is opposite to the mean
 /// specific force in it.
@@ -170,7 +139,8 @@ void FastLio2::predict(const std::vector<ImuSample>& samples, Time begin, Time e
 void FastLio2::process(const LidarScan& scan) {
   const std::vector<int> indices = selected_points(scan, config_.points);
   const Time end = end_of(scan, indices);
-  const std::vector<ImuSample> samples = new_samples(end);
+  const std::optional<Time> last = last_sample_ ? std::optional(last_sample_->stamp) : std::nullopt;
+  const std::vector<ImuSample> samples = queue_.imu().samples_between(last, end);
   if (samples.empty()) {
     ++result_.counts["lidar.without_imu"];
     return;

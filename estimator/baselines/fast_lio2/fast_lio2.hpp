@@ -9,7 +9,7 @@
 #include "estimator/baselines/fast_lio2/registration.hpp"
 #include "estimator/baselines/fast_lio2/scan_points.hpp"
 #include "estimator/diagnostics.hpp"
-#include "estimator/estimator.hpp"
+#include "estimator/queued_estimator.hpp"
 
 namespace aims::fast_lio2 {
 
@@ -23,23 +23,18 @@ ScanRow scan_row(const Update& update, std::size_t points, double variance, Time
 /// FAST-LIO2: an iterated Kalman filter on IMU and LiDAR, which matches the points of each scan
 /// with planes of a map of points (docs/baselines/fast_lio2.md). Its world is the IMU's frame at
 /// the start: roll and pitch are not relative to gravity.
-class FastLio2 : public Estimator {
+class FastLio2 : public QueuedEstimator {
  public:
   FastLio2(const Config& config, const SensorRig& rig);
 
-  void consume(const Delivery& delivery) override;
-  void finish() override;
-  const EstimatorResult& result() const override { return result_; }
   std::vector<Eigen::Vector3f> map_points() const override { return map_.points(); }
 
   /// Estimate after the last processed scan.
   const Belief& belief() const { return belief_; }
 
  private:
-  void process_ready();
+  void process_scan(const LidarScanPtr& scan) override { process(*scan); }
   void process(const LidarScan& scan);
-  /// IMU samples after the last scan's, up to `end`.
-  std::vector<ImuSample> new_samples(Time end);
   bool start(const std::vector<ImuSample>& samples);
   void predict(const std::vector<ImuSample>& samples, Time begin, Time end);
   void step(const Inertial& input, Time until);
@@ -48,9 +43,6 @@ class FastLio2 : public Estimator {
   void record(const Update& update, std::size_t points, Time stamp);
 
   Config config_;
-  SensorRig rig_;
-  MeasurementQueue queue_;
-  EstimatorResult result_;
   Belief belief_;
   PointMap map_;
   LocalCube cube_;

@@ -1,39 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/baselines/features/scan_estimator.hpp"
 
-#include <limits>
 #include <utility>
-#include <variant>
 
 namespace aims::features {
 
 ScanEstimator::ScanEstimator(const QueueConfig& queue, const SensorRig& rig,
                              std::vector<SeriesInfo> series, Duration imu_memory)
-    : rig_(rig),
-      imu_memory_(imu_memory),
-      queue_(queue, ImuPropagationConfig(), rig.imu_rate_hz,
-             std::numeric_limits<double>::infinity()) {
-  result_.diagnostics.series = std::move(series);
-}
+    : QueuedEstimator(queue, rig, std::move(series)), imu_memory_(imu_memory) {}
 
-void ScanEstimator::consume(const Delivery& delivery) {
-  queue_.push(delivery);
-  process_ready();
-}
-
-void ScanEstimator::finish() {
-  queue_.close();
-  process_ready();
-}
-
-void ScanEstimator::process_ready() {
-  while (const std::optional<Correction> next = queue_.pop()) {
-    if (const auto* scan = std::get_if<LidarScanPtr>(&*next)) process(**scan);
-  }
+void ScanEstimator::end_delivery() {
   if (const std::optional<Time> newest = queue_.imu().newest()) {
     queue_.imu().forget_before(*newest - imu_memory_);
   }
-  for (const auto& [name, count] : queue_.counts()) result_.counts[name] = count;
 }
 
 void ScanEstimator::report(const Pose& T_map_lidar, ScanRow row) {

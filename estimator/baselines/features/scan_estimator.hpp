@@ -8,8 +8,7 @@
 
 #include "estimator/baselines/features/feature_solver.hpp"
 #include "estimator/diagnostics.hpp"
-#include "estimator/estimator.hpp"
-#include "estimator/filter/measurement_queue.hpp"
+#include "estimator/queued_estimator.hpp"
 
 namespace aims::features {
 
@@ -51,15 +50,12 @@ constexpr std::array<ReportedSeries<Report>, 1> loop_series() {
 
 /// An estimator that reads scans, or scans and IMU, and reports a pose after each scan. The map is
 /// in axes of the LiDAR, the odometry frame in those of the body.
-class ScanEstimator : public Estimator {
+class ScanEstimator : public QueuedEstimator {
  public:
   /// IMU samples are kept for `imu_memory`; 0: none is needed.
   ScanEstimator(const QueueConfig& queue, const SensorRig& rig, std::vector<SeriesInfo> series,
                 Duration imu_memory = 0);
 
-  void consume(const Delivery& delivery) override;
-  void finish() override;
-  const EstimatorResult& result() const override { return result_; }
   std::vector<Eigen::Vector3f> map_points() const override;
 
  protected:
@@ -79,12 +75,10 @@ class ScanEstimator : public Estimator {
   void count(const std::string& name) { ++result_.counts[name]; }
 
  private:
-  void process_ready();
+  void process_scan(const LidarScanPtr& scan) override { process(*scan); }
+  void end_delivery() override;
 
-  SensorRig rig_;
   Duration imu_memory_;
-  MeasurementQueue queue_;
-  EstimatorResult result_;
 };
 
 }  // namespace aims::features

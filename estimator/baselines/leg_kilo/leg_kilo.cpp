@@ -70,8 +70,6 @@ namespace {
 
 constexpr double kGravity = 9.81;  ///< [m/s^2]
 
-constexpr double kAnySpeed = std::numeric_limits<double>::infinity();
-
 /// The points of the map with the covariances that they have at `belief`.
 std::vector<MapPoint> map_points_of(const std::vector<Eigen::Vector3d>& points,
                                     const Pose& T_body_lidar, const Belief& belief,
@@ -88,43 +86,16 @@ std::vector<MapPoint> map_points_of(const std::vector<Eigen::Vector3d>& points,
 }  // namespace
 
 LegKilo::LegKilo(const Config& config, const SensorRig& rig)
-    : config_(config),
-      rig_(rig),
-      queue_(config.queue, ImuPropagationConfig(), rig.imu_rate_hz, kAnySpeed),
+    : QueuedEstimator(config.queue, rig, scan_series()),
+      config_(config),
       map_(config.map),
-      contacts_(config.legs.force_begin, config.legs.force_end) {
-  result_.diagnostics.series = scan_series();
-}
+      contacts_(config.legs.force_begin, config.legs.force_end) {}
 
-void LegKilo::consume(const Delivery& delivery) {
-  queue_.push(delivery);
-  process_ready();
-}
-
-void LegKilo::finish() {
-  queue_.close();
-  process_ready();
-}
-
-void LegKilo::process_ready() {
-  while (const std::optional<Correction> next = queue_.pop()) {
-    if (const auto* scan = std::get_if<LidarScanPtr>(&*next)) {
-      process(**scan);
-    } else if (config_.legs.enabled) {
-      legs_.push_back(std::get<LegOdometrySample>(*next));
-      legs_.back().contact = contacts_.update(legs_.back());
-      if (legs_.size() > kMaxHeld) legs_.pop_front();
-    }
-  }
-  for (const auto& [name, count] : queue_.counts()) result_.counts[name] = count;
-}
-
-std::vector<ImuSample> LegKilo::new_samples(Time end) {
-  std::vector<ImuSample> samples;
-  for (const ImuSample& sample : queue_.imu().samples()) {
-    if (sample.stamp > last_sample_ && sample.stamp <= end) samples.push_back(sample);
-  }
-  return samples;
+void LegKilo::process_legs(const LegOdometrySample& sample) {
+  if (!config_.legs.enabled) return;
+  legs_.push_back(sample);
+  legs_.back().contact = contacts_.update(sample);
+  if (legs_.size() > kMaxHeld) legs_.pop_front();
 }
 
 /// The first scan and its samples: their mean is the gyro's bias and opposite to gravity, and the
@@ -152,7 +123,7 @@ bool LegKilo::start(const LidarScan& scan, const std::vector<ImuSample>& samples
 
 void LegKilo::process(const LidarScan& scan) {
   const Time end = last_firing(scan);
-  const std::vector<ImuSample> samples = new_samples(end);
+  const std::vector<ImuSample> samples = queue_.imu().samples_between(last_sample_, end);
   if (samples.empty()) {
     ++result_.counts["lidar.without_imu"];
     return;

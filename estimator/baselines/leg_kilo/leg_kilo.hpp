@@ -10,7 +10,7 @@
 #include "estimator/baselines/leg_kilo/plane_map.hpp"
 #include "estimator/baselines/leg_kilo/scan_groups.hpp"
 #include "estimator/diagnostics.hpp"
-#include "estimator/estimator.hpp"
+#include "estimator/queued_estimator.hpp"
 
 namespace aims::leg_kilo {
 
@@ -35,23 +35,19 @@ ScanRow scan_row(const ScanReport& report, const Belief& belief, double variance
 /// (docs/baselines/leg_kilo.md). It takes the points of a scan in small groups, in order of their
 /// firing, so nothing is deskewed. Its world is the IMU's frame at the start: roll and pitch are
 /// not relative to gravity.
-class LegKilo : public Estimator {
+class LegKilo : public QueuedEstimator {
  public:
   LegKilo(const Config& config, const SensorRig& rig);
 
-  void consume(const Delivery& delivery) override;
-  void finish() override;
-  const EstimatorResult& result() const override { return result_; }
   std::vector<Eigen::Vector3f> map_points() const override { return map_.plane_centres(); }
 
   /// Estimate after the last processed scan.
   const Belief& belief() const { return belief_; }
 
  private:
-  void process_ready();
+  void process_scan(const LidarScanPtr& scan) override { process(*scan); }
+  void process_legs(const LegOdometrySample& sample) override;
   void process(const LidarScan& scan);
-  /// IMU samples after the last scan's, up to `end`.
-  std::vector<ImuSample> new_samples(Time end);
   bool start(const LidarScan& scan, const std::vector<ImuSample>& samples);
   bool register_scan(const LidarScan& scan, const std::vector<ImuSample>& samples,
                      ScanReport& report);
@@ -62,9 +58,6 @@ class LegKilo : public Estimator {
   void record(const ScanReport& report, Time stamp);
 
   Config config_;
-  SensorRig rig_;
-  MeasurementQueue queue_;
-  EstimatorResult result_;
   Belief belief_;
   PlaneMap map_;
   ContactHysteresis contacts_;
@@ -73,7 +66,7 @@ class LegKilo : public Estimator {
   double force_scale_ = 1.0;  ///< makes the mean specific force of the start as long as gravity
   Time predicted_ = 0;        ///< time of the state
   Time updated_ = 0;          ///< time of the last update, from which the covariance is predicted
-  Time last_sample_ = std::numeric_limits<Time>::min();  ///< newest IMU sample taken
+  std::optional<Time> last_sample_;  ///< newest IMU sample taken
   std::deque<LegOdometrySample> legs_;                   ///< in order of stamp
 };
 

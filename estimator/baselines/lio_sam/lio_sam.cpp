@@ -84,8 +84,6 @@ ScanRow row_of(const ScanReport& scan, Time stamp) {
 
 namespace {
 
-constexpr double kAnySpeed = std::numeric_limits<double>::infinity();
-
 /// Samples and poses kept while no scan arrives.
 constexpr std::size_t kMaxKept = 20000;
 
@@ -108,39 +106,22 @@ Time last_firing(const LidarScan& scan) {
 }  // namespace
 
 LioSam::LioSam(const Config& config, const SensorRig& rig)
-    : config_(config),
-      rig_(rig),
-      queue_(config.queue, ImuPropagationConfig(), rig.imu_rate_hz, kAnySpeed),
+    : QueuedEstimator(config.queue, rig, scan_series()),
+      config_(config),
       mapping_(config.mapping),
-      imu_odometry_(config.imu, rig.T_body_lidar.inverse().translation) {
-  result_.diagnostics.series = scan_series();
-}
-
-void LioSam::consume(const Delivery& delivery) {
-  queue_.push(delivery);
-  process_ready();
-}
+      imu_odometry_(config.imu, rig.T_body_lidar.inverse().translation) {}
 
 void LioSam::finish() {
-  queue_.close();
-  process_ready();
+  QueuedEstimator::finish();
   const Time clock = held_.empty() ? 0 : held_.back()->end;
   for (const LidarScanPtr& scan : std::exchange(held_, {})) process(*scan, clock);
   set_counts();
 }
 
-void LioSam::process_ready() {
-  while (std::optional<Correction> next = queue_.pop()) {
-    if (auto* scan = std::get_if<LidarScanPtr>(&*next)) hold(std::move(*scan));
-  }
-  set_counts();
-}
-
-/// A scan waits for later ones, whose IMU samples are known when it is processed.
-void LioSam::hold(LidarScanPtr scan) {
+void LioSam::process_scan(const LidarScanPtr& scan) {
   const Time clock = scan->end;
   add_samples(clock);
-  held_.push_back(std::move(scan));
+  held_.push_back(scan);
   if (static_cast<int>(held_.size()) <= config_.timing.held_scans) return;
   const LidarScanPtr next = held_.front();
   held_.pop_front();

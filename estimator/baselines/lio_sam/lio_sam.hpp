@@ -9,7 +9,7 @@
 #include "estimator/baselines/lio_sam/config.hpp"
 #include "estimator/baselines/lio_sam/mapping.hpp"
 #include "estimator/diagnostics.hpp"
-#include "estimator/estimator.hpp"
+#include "estimator/queued_estimator.hpp"
 
 namespace aims::lio_sam {
 
@@ -34,13 +34,11 @@ ScanRow row_of(const ScanReport& scan, Time stamp);
 /// LIO-SAM: scans registered to keyframes, guessed by an odometry of IMU and LiDAR poses in a
 /// factor graph; keyframes in another graph, with loops (docs/baselines/lio_sam.md). Its odometry
 /// frame is level, at the body's first position and heading.
-class LioSam final : public Estimator {
+class LioSam final : public QueuedEstimator {
  public:
   LioSam(const Config& config, const SensorRig& rig);
 
-  void consume(const Delivery& delivery) override;
   void finish() override;
-  const EstimatorResult& result() const override { return result_; }
   std::vector<Eigen::Vector3f> map_points() const override;
 
  private:
@@ -50,8 +48,9 @@ class LioSam final : public Estimator {
     LidarOdometry scan;
   };
 
-  void process_ready();
-  void hold(LidarScanPtr scan);
+  /// Holds the scan until later ones have come, whose IMU samples are known then.
+  void process_scan(const LidarScanPtr& scan) override;
+  void end_delivery() override { set_counts(); }
   void add_samples(Time until);
   void add_sample(const ImuSample& sample);
   ImuSample in_lidar_axes(const ImuSample& sample);
@@ -64,9 +63,6 @@ class LioSam final : public Estimator {
   void set_counts();
 
   Config config_;
-  SensorRig rig_;
-  MeasurementQueue queue_;
-  EstimatorResult result_;
   AttitudeFilter attitude_filter_;
   Mapping mapping_;
   ImuOdometry imu_odometry_;
