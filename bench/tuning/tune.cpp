@@ -30,13 +30,15 @@ std::vector<double> start_of(const TuneTask& task) {
   return fractions;
 }
 
-/// The point in the parameters' own units.
+/// The point in the parameters' own units, whole where they are.
 std::vector<double> values_of(const TuneTask& task, const std::vector<double>& fractions) {
   if (fractions == start_of(task) && defaults_outside(task).empty()) return task.defaults;
   std::vector<double> values;
   for (std::size_t i = 0; i < fractions.size(); ++i) {
     values.push_back(value_at(task.ranges[i], fractions[i]));
   }
+  const auto settings = settings_of(task, values);
+  for (std::size_t i = 0; i < settings.size(); ++i) values[i] = std::stod(settings[i].second);
   return values;
 }
 
@@ -227,7 +229,7 @@ std::vector<Job> jobs_of(std::span<const EstimatorSpec> estimators,
 }  // namespace
 
 bool keeps_defaults(const TuneResult& result) {
-  return result.tables.size() == 1 && result.chosen == std::vector<std::size_t>{0};
+  return result.chosen == std::vector<std::size_t>{0};
 }
 
 std::vector<std::string> defaults_outside(const TuneTask& task) {
