@@ -76,6 +76,20 @@ test("a loss begins where the error stays", () => {
   assert.equal(page.lossOf(page.errorTrack(page.truePath(back), back.estimators[0], "start")), null);
 });
 
+test("a gap breaks the curve, is named as such, and is no loss", () => {
+  const data = walk({ a: (x) => [x > 40 && x < 52 ? NaN : x, 0] });
+  data.scores.estimators.a = { ...data.scores.estimators.a, success: false, diverged_reason: "gap" };
+  const track = page.errorTrack(page.truePath(data), data.estimators[0], "start");
+  assert.ok(Number.isNaN(track.error[45]) && track.error[60] < 1e-6);
+  assert.ok(page.thin(track, 3).some((i) => Number.isNaN(track.error[i])));
+  assert.equal(page.lossOf(track), null);
+  assert.equal(page.missingText(data, "a"), "has no poses for 12 s, from 40 s on");
+  const { list, route } = page.findingsOf(data);
+  assert.match(page.finding(list, route), /a has no poses for 12 s, from 40 s on\.$/);
+  data.scores.estimators.a.diverged_reason = "error_limit";
+  assert.equal(page.missingText(data, "a"), null);
+});
+
 test("the sentence names who keeps the length, who loses it where, and who does not notice", () => {
   const data = walk({
     good: (x) => [1.0002 * x, 0],
