@@ -154,13 +154,22 @@ std::vector<std::vector<std::size_t>> groups_along(const ResponseTable& table,
   return result;
 }
 
-/// Whether points that differ in this parameter alone are all alike, and are enough to say so of
-/// all points: at least half of them, and over the ranges of all parameters. A parameter may have
-/// no effect at one value of another alone.
-bool acts_nowhere(const ResponseTable& table, std::size_t parameter) {
-  std::vector<std::size_t> compared;
+/// Whether points that differ in this parameter alone, of which there are some, are all alike.
+bool is_alike_in_pairs(const ResponseTable& table, std::size_t parameter) {
+  bool any = false;
   for (const auto& points : groups_along(table, parameter)) {
     if (!are_all_same(table, points)) return false;
+    any = any || span_of(table, points, parameter) > 0.0;
+  }
+  return any;
+}
+
+/// Whether these points are also enough to say so of all points: at least half of them, and over
+/// the ranges of all parameters. A parameter may have no effect at one value of another alone.
+bool acts_nowhere(const ResponseTable& table, std::size_t parameter) {
+  if (!is_alike_in_pairs(table, parameter)) return false;
+  std::vector<std::size_t> compared;
+  for (const auto& points : groups_along(table, parameter)) {
     if (span_of(table, points, parameter) > 0.0 && covers(table, points, parameter)) {
       compared.insert(compared.end(), points.begin(), points.end());
     }
@@ -259,6 +268,14 @@ std::vector<bool> without_effect(const ResponseTable& table) {
   std::vector<bool> without;
   for (std::size_t i = 0; i < table.ranges.size(); ++i) without.push_back(acts_nowhere(table, i));
   return without;
+}
+
+std::vector<bool> alike_in_pairs(const ResponseTable& table) {
+  std::vector<bool> alike;
+  for (std::size_t i = 0; i < table.ranges.size(); ++i) {
+    alike.push_back(is_alike_in_pairs(table, i));
+  }
+  return alike;
 }
 
 bool is_inside(const ResponseTable& table, const std::vector<double>& values) {

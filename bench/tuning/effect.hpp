@@ -40,6 +40,10 @@ std::string text_of(const Effect& effect);
 /// all, and reach over at least half of what the points reach over of each parameter.
 std::vector<bool> without_effect(const ResponseTable& table);
 
+/// Per parameter, whether points that differ in it alone, of which there are some, have the same
+/// score in every run: it may have no effect, which these points alone need not show.
+std::vector<bool> alike_in_pairs(const ResponseTable& table);
+
 /// Whether no value lies outside its range, as a default may.
 bool is_inside(const ResponseTable& table, const std::vector<double>& values);
 

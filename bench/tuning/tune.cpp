@@ -131,14 +131,14 @@ class Tuning {
     result_.chosen = pareto_front(values);
   }
 
-  /// Where the chosen point has other values than the defaults of parameters without effect, the
-  /// one with the defaults is run and chosen, unless it turns out to be worse.
+  /// Where the chosen point has other values than the defaults of parameters that may have no
+  /// effect, the one with the defaults is run and chosen, unless it turns out to be worse.
   Result<void> keep_idle_defaults() {
     if (result_.tables.size() != 1 || result_.chosen.empty() || !result_.complete) return {};
     const TuneTask& task = result_.task;
     ResponseTable& table = result_.tables.front();
     std::vector<double> values = table.points[result_.chosen.front()];
-    const std::vector<bool> idle = without_effect(table);
+    const std::vector<bool> idle = alike_in_pairs(table);
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (idle[i]) values[i] = task.defaults[i];
     }

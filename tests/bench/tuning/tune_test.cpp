@@ -299,7 +299,12 @@ TEST(Tune, DeniesNoEffectByPairsAtTheEdgeOfARange) {
   plan.params = {"degeneracy.eta=0:6", "degeneracy.alpha=0:0.99"};
   const auto result = tune(task_of(plan), decided_by("degeneracy.eta", 3.0));
   ASSERT_TRUE(result) << result.error().message;
-  EXPECT_EQ(without_effect(result->tables[0]), (std::vector<bool>{false, false}));
+  const ResponseTable& table = result->tables[0];
+  EXPECT_EQ(without_effect(table), (std::vector<bool>{false, false}));
+  EXPECT_EQ(alike_in_pairs(table), (std::vector<bool>{false, true}));
+  EXPECT_EQ(table.points[result->chosen[0]], (std::vector<double>{0.0, DegeneracyConfig{}.alpha}))
+      << "the default of alpha was tried and is as good";
+  EXPECT_TRUE(says(verdict_lines(*result)[0], "alpha 0.9 as by default"));
 }
 
 TEST(Tune, WhereEveryRunDivergesNothingIsDecided) {
