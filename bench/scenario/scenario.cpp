@@ -321,8 +321,9 @@ std::string description_with_settings(const Scenario& scenario) {
     return each.starts_with("estimators.") || each.starts_with("seed=");
   });
   if (settings.empty()) return scenario.description;
-  return fmt::format("{}{}With changed settings: {}.", scenario.description,
-                     scenario.description.empty() ? "" : " ", fmt::join(settings, ", "));
+  std::string text = scenario.description;
+  if (!text.empty()) text += text.ends_with('.') ? " " : ". ";
+  return text + fmt::format("With changed settings: {}.", fmt::join(settings, ", "));
 }
 
 }  // namespace

@@ -62,6 +62,9 @@ TEST_F(ScenarioFolder, ItsDescriptionNamesWhatWasSetOnTopOfTheFile) {
   EXPECT_EQ(description({"estimators.aims.degeneracy.eta=5"}), "A wide hall.");
   EXPECT_EQ(description({"lidar.columns=450"}),
             "A wide hall. With changed settings: lidar.columns=450.");
+  write("plain.yaml", "description: A hall");
+  EXPECT_EQ(description({"lidar.columns=450"}),
+            "A hall. With changed settings: lidar.columns=450.");
 }
 
 TEST_F(ScenarioFolder, RefusesTwoFilesOfOneName) {
