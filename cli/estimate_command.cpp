@@ -72,6 +72,10 @@ void print_results(const EstimateResult& result, const fs::path& folder,
     }
     const std::string health = text_of(each.totals.health);
     if (!health.empty()) print_out("health: {}: {}\n", each.name, health);
+    const auto unnoticed = result.healthy_while_wrong_s.find(each.name);
+    if (unnoticed != result.healthy_while_wrong_s.end() && unnoticed->second >= kLeastUnnoticed) {
+      print_out("health: {}: healthy for {:.1f} s while wrong\n", each.name, unnoticed->second);
+    }
   }
   for (const ReadingWarning& each : result.setup.warnings) print_out("warning: {}\n", each.text);
   for (const EstimatorOutcome& each : result.estimators) print_contradictions(each);

@@ -11,6 +11,7 @@
 #include "bench/estimate/bag_origin.hpp"
 #include "bench/estimate/count_warnings.hpp"
 #include "bench/estimate/estimate_log.hpp"
+#include "bench/estimate/healthy_while_wrong.hpp"
 #include "bench/estimate/mount_check.hpp"
 #include "bench/estimate/python_classes.hpp"
 #include "bench/estimate/ring_note.hpp"
@@ -354,6 +355,7 @@ Result<EstimateResult> estimate(const EstimateConfig& config, const EstimateOpti
   if (auto scored = score_against_truth(config, result); !scored) {
     return tl::unexpected(scored.error());
   }
+  if (auto added = add_healthy_while_wrong(result); !added) return tl::unexpected(added.error());
   result.wall_s = stopwatch.seconds();
   return result;
 }

@@ -66,6 +66,9 @@ struct EstimateResult {
   std::optional<Error> broken;  ///< the bag ended in an error; what came before is estimated
   double recorded_s = 0.0;      ///< of the recording that was read
   double wall_s = 0.0;
+  /// By estimator: time for which it called itself healthy after its error exceeded the limit of a
+  /// success; of those alone that have a truth to err from and did.
+  std::map<std::string, double> healthy_while_wrong_s;
   std::vector<EstimatorOutcome> estimators;  ///< their scores are in `scores`
   std::vector<std::string> without_rings;  ///< estimators that need rings, of which there are none
   std::vector<EstimatorFailure> failures;  ///< those with poses are in `estimators` too

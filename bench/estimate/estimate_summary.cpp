@@ -115,6 +115,10 @@ RunRecord estimate_record(const EstimateResult& result) {
     json["cpu_per_scan_ms"] = time_json(each.scan_times.cpu_ms);
     json["counts"] = each.result.counts;
     json["health"] = health_json(each.totals.health);
+    const auto unnoticed = result.healthy_while_wrong_s.find(each.name);
+    if (unnoticed != result.healthy_while_wrong_s.end()) {
+      json["health"]["healthy_while_wrong_s"] = unnoticed->second;
+    }
     Json& estimators = record.scores["estimators"];
     const std::string label = optimized_label(each.name);
     if (!estimators.contains(label)) continue;

@@ -181,6 +181,10 @@ Result<std::vector<ListedJob>> JobStore::listed() const {
 
 Result<std::string> JobStore::plan() const { return read_file(folder_ / kPlanFile); }
 
+Result<std::string> JobStore::code() const {
+  return plan().map([](const std::string& text) { return line_of(text, kCodeLine); });
+}
+
 std::optional<Json> JobStore::read(const std::string& id) const {
   const auto text = read_file(file_of(id));
   if (!text) return std::nullopt;

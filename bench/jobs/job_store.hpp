@@ -62,6 +62,8 @@ class JobStore {
 
   /// The text of plan.yaml.
   Result<std::string> plan() const;
+  /// The code version that the plan's jobs are of.
+  Result<std::string> code() const;
 
   /// What the job came to; none when it is not there or its file cannot be read.
   std::optional<JobResult> find(const std::string& id) const;

@@ -104,7 +104,8 @@ Result<Scenario> default_scenario(std::span<const std::string> overrides);
 /// unit, range, meaning and source to each.
 std::string config_text(const Scenario& scenario, bool annotated = false);
 
-/// The configuration that repeats a run with that seed, with what the seed draws.
+/// The configuration that repeats a run with that seed, with what the seed draws. Its description
+/// names what was set on top of the file.
 std::string effective_config(const Scenario& scenario, std::uint64_t seed);
 
 /// The file of a scenario given by path or by bare name ("corridor"), searched in `folder` and

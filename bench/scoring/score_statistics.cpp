@@ -32,6 +32,9 @@ std::vector<double> values_of(std::span<const RunRecord> runs, const std::string
 
 std::optional<double> worst_of(const std::vector<double>& values, const std::string& key) {
   if (values.empty()) return std::nullopt;
+  if (better_of(key) == Better::kNeither) {  // of errors with a sign, the largest
+    return *std::ranges::max_element(values, {}, [](double value) { return std::abs(value); });
+  }
   const auto [smallest, largest] = std::ranges::minmax(values);
   return better_of(key) == Better::kLarger ? smallest : largest;
 }

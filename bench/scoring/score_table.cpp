@@ -69,12 +69,38 @@ std::vector<Column> columns_of(const RunRecord& run, bool several) {
   return columns;
 }
 
+/// Runs on which the estimator failed.
+std::size_t failed_runs(std::span<const RunRecord> runs, const std::string& estimator) {
+  return static_cast<std::size_t>(std::ranges::count_if(runs, [&](const RunRecord& run) {
+    return std::ranges::any_of(
+        value_in(run.scores, "failures", Json::array()),
+        [&](const Json& each) { return value_in(each, "estimator", "") == estimator; });
+  }));
+}
+
+/// The estimators of any run, then those that failed on all.
+std::vector<std::string> estimators_in(std::span<const RunRecord> runs) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
+  };
+  for (const RunRecord& run : runs) {
+    for (const auto& [name, unused] : run.scores.at("estimators").items()) add(name);
+  }
+  for (const RunRecord& run : runs) {
+    for (const Json& each : value_in(run.scores, "failures", Json::array())) {
+      add(value_in(each, "estimator", ""));
+    }
+  }
+  return names;
+}
+
 std::vector<Row> rows_of(std::span<const RunRecord> runs) {
   std::vector<Row> rows;
-  for (const auto& [name, unused] : runs.front().scores.at("estimators").items()) {
+  for (const std::string& name : estimators_in(runs)) {
     rows.push_back({name, ""});
-    const bool optimized = std::ranges::any_of(
-        runs, [&, &own = name](const RunRecord& run) { return has_optimized(run, own); });
+    const bool optimized =
+        std::ranges::any_of(runs, [&](const RunRecord& run) { return has_optimized(run, name); });
     if (optimized) rows.push_back({name, kOptimizedPrefix});
   }
   return rows;
@@ -145,11 +171,16 @@ std::string outcome_of(const RunRecord& run, const Row& row) {
 }
 
 std::string success_cell(std::span<const RunRecord> runs, const Row& row, const Score& score) {
+  if (const std::size_t failed = failed_runs(runs, row.estimator); failed == runs.size()) {
+    return runs.size() == 1 ? "failed" : fmt::format("failed ({0} of {0} seeds)", failed);
+  }
   if (std::ranges::none_of(runs, is_valid_run)) return "invalid run";
   if (runs.size() == 1 && std::string(score.key) == kSuccessKey) {
     return outcome_of(runs.front(), row);
   }
   const SuccessRate rate = success_rate(runs, row.estimator, row.prefix + score.key);
+  const std::size_t failed = failed_runs(runs, row.estimator);
+  if (failed > 0) return fmt::format("{}, {} failed", rate.text(), failed);
   if (runs.size() > 1 || rate.runs == 0) return rate.text();
   return rate.count == 1 ? "yes" : "no";
 }

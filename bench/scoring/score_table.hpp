@@ -14,8 +14,9 @@ namespace aims {
 /// runs each cell is "median (worst)", and success the fraction of runs with its interval. Of
 /// several estimators, the best figure of each column among those with a success carries a star; a
 /// median over runs without success is marked "x", an ATE SE(3) where evo gives none "line" or
-/// "point". A re-optimized trajectory has a row of its own, "NAME (optimized)". Invalid runs are
-/// left out; without a valid one there are no scores.
+/// "point". An estimator that failed on some runs, or on all, is said to have. A re-optimized
+/// trajectory has a row of its own, "NAME (optimized)". Invalid runs are left out; without a valid
+/// one there are no scores.
 TextTable score_table(std::span<const RunRecord> runs);
 
 /// How the trajectories were aligned for each column, and what the marks mean.

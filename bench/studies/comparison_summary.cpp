@@ -15,11 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The smallest change that would have been better or worse; none of a change that is.
+/// The smallest change that would have been better or worse, of one in which nothing was detected.
 std::optional<double> detectable(const ScoreChange& change) {
-  const bool detected =
-      change.verdict == ChangeVerdict::kBetter || change.verdict == ChangeVerdict::kWorse;
-  if (detected || !change.test.detectable) return std::nullopt;
+  const bool undetected =
+      change.verdict == ChangeVerdict::kNone || change.verdict == ChangeVerdict::kTooFew;
+  if (!undetected || !change.test.detectable) return std::nullopt;
   return std::max(*change.test.detectable, change.floor);
 }
 

@@ -97,7 +97,10 @@ std::string text_of(const BestPoint& best, const ResponseTable& table) {
 
 Result<BestPoint> best_point(const ResponseTable& table, const Objective& objective) {
   if (all_diverged(table)) {
-    return failure("every run diverged or failed, so that no point is better than another");
+    return failure(
+        "every run diverged or failed and counts the divergence penalty or more, so that no point "
+        "is "
+        "better than another");
   }
   const auto all = cases_of(table, "");
   const auto point = least_point(table, objective, all);

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
+#include "bench/metrics/statistics.hpp"
 #include "bench/scoring/score_statistics.hpp"
 #include "core/random.hpp"
 
@@ -17,6 +19,8 @@ namespace {
 constexpr double kEffectLevel = 0.05;
 constexpr double kSameScore = 1e-9;  ///< relative
 constexpr int kDraws = 199;
+constexpr double kCovered = 0.5;              ///< fraction of points, and of spans of parameters
+constexpr std::size_t kFewestWithoutOne = 5;  ///< points, to leave one out
 
 /// An objective per seed, of each point.
 using Rows = std::vector<std::vector<double>>;
@@ -64,6 +68,18 @@ double spread_of(const Rows& columns) {
   return spread;
 }
 
+/// The row whose sum over seeds lies farthest from the mean.
+std::size_t farthest_row(const Rows& rows) {
+  std::vector<double> sums;
+  double mean = 0.0;
+  for (const auto& row : rows) {
+    sums.push_back(std::accumulate(row.begin(), row.end(), 0.0));
+    mean += sums.back() / double(rows.size());
+  }
+  const auto far = [mean](double a, double b) { return std::abs(a - mean) < std::abs(b - mean); };
+  return static_cast<std::size_t>(std::ranges::max_element(sums, far) - sums.begin());
+}
+
 std::optional<double> p_of(const Rows& rows, std::size_t seeds) {
   if (seeds < 2 || rows.size() < 2) return std::nullopt;
   Rows columns = centered_columns(rows, seeds);
@@ -107,22 +123,84 @@ bool are_all_same(const ResponseTable& table, const std::vector<std::size_t>& po
   });
 }
 
-/// Points with the same values of all parameters but one.
-bool acts_nowhere(const ResponseTable& table, std::size_t parameter) {
+/// Largest minus smallest fraction of its range that a parameter has at these points.
+double span_of(const ResponseTable& table, const std::vector<std::size_t>& points, std::size_t i) {
+  double low = 1.0;
+  double high = 0.0;
+  for (const std::size_t k : points) {
+    const double at = std::clamp(fraction_of(table.ranges[i], values_at(table, k)[i]), 0.0, 1.0);
+    low = std::min(low, at);
+    high = std::max(high, at);
+  }
+  return std::max(0.0, high - low);
+}
+
+/// Whether these points reach over at least half of what all points reach over of a parameter.
+bool covers(const ResponseTable& table, const std::vector<std::size_t>& points, std::size_t i) {
+  return span_of(table, points, i) >= kCovered * span_of(table, all_points(table), i);
+}
+
+/// Points that have the same values of all parameters but one, per such values.
+std::vector<std::vector<std::size_t>> groups_along(const ResponseTable& table,
+                                                   std::size_t parameter) {
   std::map<std::vector<double>, std::vector<std::size_t>> groups;
   for (const std::size_t k : all_points(table)) {
     std::vector<double> others = values_at(table, k);
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(parameter));
     groups[std::move(others)].push_back(k);
   }
+  std::vector<std::vector<std::size_t>> result;
+  for (auto& [others, points] : groups) result.push_back(std::move(points));
+  return result;
+}
+
+/// Whether points that differ in this parameter alone, of which there are some, are all alike.
+bool is_alike_in_pairs(const ResponseTable& table, std::size_t parameter) {
   bool any = false;
-  for (const auto& [others, points] : groups) {
+  for (const auto& points : groups_along(table, parameter)) {
     if (!are_all_same(table, points)) return false;
-    any = any || std::ranges::any_of(points, [&](std::size_t k) {
-            return values_at(table, k)[parameter] != values_at(table, points.front())[parameter];
-          });
+    any = any || span_of(table, points, parameter) > 0.0;
   }
   return any;
+}
+
+/// Whether these points are also enough to say so of all points: at least half of them, and over
+/// the ranges of all parameters. A parameter may have no effect at one value of another alone.
+bool acts_nowhere(const ResponseTable& table, std::size_t parameter) {
+  if (!is_alike_in_pairs(table, parameter)) return false;
+  std::vector<std::size_t> compared;
+  for (const auto& points : groups_along(table, parameter)) {
+    if (span_of(table, points, parameter) > 0.0 && covers(table, points, parameter)) {
+      compared.insert(compared.end(), points.begin(), points.end());
+    }
+  }
+  if (compared.empty() || double(compared.size()) < kCovered * double(all_points(table).size())) {
+    return false;
+  }
+  for (std::size_t i = 0; i < table.ranges.size(); ++i) {
+    if (!covers(table, compared, i)) return false;
+  }
+  return true;
+}
+
+/// Whether so much is small in the sense of comparisons, in the score's unit.
+bool is_small(const ResponseTable& table, const Objective& objective, const Effect& effect) {
+  double scale = 1.0;
+  if (objective.relative) {
+    std::vector<double> scores;
+    for (const RunScore& run : table.default_runs) {
+      if (run.value && !run.diverged) scores.push_back(*run.value);
+    }
+    scale = mean(scores).value_or(0.0);
+  }
+  return (effect.most - effect.least) * scale <=
+         smallest_change(objective.score, effect.least * scale);
+}
+
+/// 0.43, 2.9, 143: never in powers of ten.
+std::string percent_text(double percent) {
+  const int digits = percent < 0.995 ? 2 : percent < 9.95 ? 1 : 0;
+  return fmt::format("{:.{}f} %", percent, digits);
 }
 
 }  // namespace
@@ -145,8 +223,14 @@ Effect effect_of(const ResponseTable& table, const Objective& objective,
     effect.most = effect.points == 0 ? *value : std::max(effect.most, *value);
     ++effect.points;
   }
+  if (effect.is_none()) return effect;
+  effect.small = is_small(table, objective, effect);
   const SeedGroups seeds = cases_by_seed(table, cases);
-  if (!effect.is_none()) effect.p = p_of(by_seed(table, objective, seeds), seeds.size());
+  Rows rows = by_seed(table, objective, seeds);
+  effect.p = p_of(rows, seeds.size());
+  if (!effect.is_resolved() || !effect.p || rows.size() < kFewestWithoutOne) return effect;
+  rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(farthest_row(rows)));
+  effect.of_one_point = p_of(rows, seeds.size()).value_or(0.0) > kEffectLevel;
   return effect;
 }
 
@@ -159,17 +243,21 @@ std::string text_of(const Effect& effect) {
   std::string text = fmt::format("The objective lies between {:.4g} and {:.4g} at the {} points",
                                  effect.least, effect.most, effect.points);
   if (effect.least > 0.0) {
-    text += fmt::format(" ({:.2g} %)", 100.0 * (effect.most / effect.least - 1.0));
+    text += fmt::format(" ({})", percent_text(100.0 * (effect.most / effect.least - 1.0)));
   }
-  if (!effect.p) {
-    return text + (effect.is_resolved() ? "; with one seed its scatter is unknown."
-                                        : ": not resolved, since with one seed less than 5 % may "
-                                          "be scatter.");
+  if (!effect.is_resolved()) {
+    text += effect.p ? ": not resolved, since seeds scatter as much"
+                     : ": not resolved, since with one seed less than 5 % may be scatter";
+  } else {
+    text += effect.p ? ", beyond the scatter of seeds" : "; with one seed its scatter is unknown";
+    if (effect.of_one_point) text += ", by a single point alone: without it, it is not resolved";
+    if (effect.small) text += "; small, as comparisons call it (5 % or the score's floor)";
   }
-  return text + fmt::format("{} (p = {:.2g}).",
-                            effect.is_resolved() ? ", beyond the scatter of seeds"
-                                                 : ": not resolved, since seeds scatter as much",
-                            *effect.p);
+  if (!effect.p) return text + ".";
+  return text + fmt::format(
+                    ". p = {:.2g}: permutation test on the variance over points of their "
+                    "sums over seeds, {} draws.",
+                    *effect.p, kDraws);
 }
 
 std::vector<bool> without_effect(const ResponseTable& table) {
@@ -180,6 +268,14 @@ std::vector<bool> without_effect(const ResponseTable& table) {
   std::vector<bool> without;
   for (std::size_t i = 0; i < table.ranges.size(); ++i) without.push_back(acts_nowhere(table, i));
   return without;
+}
+
+std::vector<bool> alike_in_pairs(const ResponseTable& table) {
+  std::vector<bool> alike;
+  for (std::size_t i = 0; i < table.ranges.size(); ++i) {
+    alike.push_back(is_alike_in_pairs(table, i));
+  }
+  return alike;
 }
 
 bool is_inside(const ResponseTable& table, const std::vector<double>& values) {

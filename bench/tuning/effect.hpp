@@ -16,10 +16,12 @@ struct Effect {
   std::size_t points = 0;  ///< within their ranges, that have an objective
   double least = 0.0;      ///< objective over all sequences
   double most = 0.0;
-  /// That points which differ by nothing but the scatter of seeds differ so much in their mean over
-  /// seeds: fraction of the draws in which the points are exchanged within each seed (permutation
-  /// in randomized blocks, as in the test of Friedman 1937). None with one seed.
+  /// Permutation test in randomized blocks, as that of Friedman (1937): the points are exchanged
+  /// within each seed; the fraction of 199 draws in which the variance over points of their sums
+  /// over seeds, of the objective's logarithm, is as large. None with one seed.
   std::optional<double> p;
+  bool small = false;         ///< too little to matter, as in comparisons (`smallest_change`)
+  bool of_one_point = false;  ///< resolved, and not without the point farthest from the mean
 
   bool is_none() const;
   /// Beyond the scatter of seeds; with one seed, whose scatter is unknown, more than 5 %.
@@ -33,9 +35,14 @@ Effect effect_of(const ResponseTable& table, const Objective& objective,
 /// "The objective lies between 0.93 and 1.2 at the 16 points (29 %)." and what that is worth.
 std::string text_of(const Effect& effect);
 
-/// Per parameter, whether points that differ in it alone, of which there are some, or all points
-/// there are, have the same score in every run.
+/// Per parameter, whether no point contradicts that it has no effect, and the points can tell: all
+/// have the same score in every run, or those that differ in it alone have, are at least half of
+/// all, and reach over at least half of what the points reach over of each parameter.
 std::vector<bool> without_effect(const ResponseTable& table);
+
+/// Per parameter, whether points that differ in it alone, of which there are some, have the same
+/// score in every run: it may have no effect, which these points alone need not show.
+std::vector<bool> alike_in_pairs(const ResponseTable& table);
 
 /// Whether no value lies outside its range, as a default may.
 bool is_inside(const ResponseTable& table, const std::vector<double>& values);

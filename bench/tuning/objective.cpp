@@ -74,10 +74,12 @@ std::string text_of(const Objective& objective) {
   if (objective.statistic == ObjectiveStatistic::kQuantile) {
     statistic = fmt::format("{} quantile", objective.quantile);
   }
-  return fmt::format("{} of {}{}; a diverged run counts {}, and {} times their fraction is added",
+  const char* timing =
+      is_timing(objective.score) ? "; a time depends on the machine and on its load" : "";
+  return fmt::format("{} of {}{}; a diverged run counts {}, and {} times their fraction is added{}",
                      statistic, objective.score,
                      objective.relative ? " over that of the defaults" : "",
-                     objective.divergence_penalty, objective.divergence_penalty);
+                     objective.divergence_penalty, objective.divergence_penalty, timing);
 }
 
 std::string value_label(const Objective& objective) {
@@ -105,12 +107,13 @@ std::string unit_of_score(const std::string& score) {
   }};
   if (score.starts_with("success")) return "";  // "_1_percent" is its limit
   std::istringstream parts(score);
+  std::string last;
   for (std::string part; std::getline(parts, part, '.');) {
-    for (const auto& [suffix, unit] : kSuffixes) {
-      if (part.ends_with(suffix)) return std::string(unit);
-    }
+    const auto* const found = std::ranges::find_if(
+        kSuffixes, [&](const auto& each) { return part.ends_with(each.first); });
+    if (found != kSuffixes.end()) last = found->second;
   }
-  return "";
+  return last;
 }
 
 RunScore run_score(const JobResult& job, const std::string& score) {

@@ -12,6 +12,7 @@
 #include "bench/scoring/columns.hpp"
 #include "bench/scoring/score_statistics.hpp"
 #include "bench/tuning/analysis.hpp"
+#include "bench/tuning/effect.hpp"
 #include "bench/tuning/response_summary.hpp"
 
 namespace aims {
@@ -22,6 +23,7 @@ struct PointSummary {
   std::string name;  ///< of the estimator
   bool is_default = false;
   bool is_best = false;
+  bool is_resolved = false;  ///< points differ by more than seeds scatter
   std::vector<double> values;
   std::optional<double> objective;
   std::optional<double> median;  ///< of the score
@@ -52,10 +54,12 @@ PointSummary summary_of(const ResponseTable& table, const Objective& objective, 
 std::vector<PointSummary> summaries_of(const SweepResponse& response, const Objective& objective) {
   const ResponseTable& table = response.table;
   const auto best = best_point(table, objective);
+  const bool resolved = effect_of(table, objective).is_resolved();
   std::vector<PointSummary> summaries;
   const auto add = [&](std::size_t point) {
     summaries.push_back(summary_of(table, objective, point));
     summaries.back().is_best = best && best->point == point;
+    summaries.back().is_resolved = resolved;
   };
   if (!table.default_runs.empty()) add(kDefaults);
   for (std::size_t k = 0; k < table.points.size(); ++k) {
@@ -85,7 +89,8 @@ TableColumns<PointSummary> point_columns(const std::vector<ParameterRange>& rang
       {"objective", "", &Point::objective},
       {"", "objective",
        [](const Point& point) {
-         return figure_text(point.objective) + (point.is_best ? " best" : "");
+         const char* mark = point.is_resolved ? " best" : " least, not resolved";
+         return figure_text(point.objective) + (point.is_best ? mark : "");
        }},
       {"score_median", "score (" + score + "), median", &Point::median, "{:.3g}"},
       {"score_worst", "worst", &Point::worst, "{:.3g}"},

@@ -13,6 +13,7 @@ namespace aims {
 namespace {
 
 constexpr double kInteracts = 0.05;
+constexpr double kLeastGain = 0.0005;  ///< of what is not 0.0 % in a text
 
 /// 100 times the fraction, of less than ten with a digit behind the point; never "-0".
 std::string hundredfold(double fraction) {
@@ -123,8 +124,11 @@ std::string best_markdown(const ResponseTable& table, const Objective& objective
 std::string gain_markdown(const BestPoint& best) {
   if (best.defaults_diverged) return fmt::format("No gain: {}.\n", kNoGain);
   if (best.is_default() || !best.gain) return "";
+  const std::string reduction = std::abs(*best.gain) < kLeastGain
+                                    ? "less than 0.1 %"
+                                    : percent_text(best.gain, best.gain_interval);
   return fmt::format("Reduction by {} on these sequences, among which the best was chosen.\n",
-                     percent_text(best.gain, best.gain_interval));
+                     reduction);
 }
 
 /// The source of the indices, negligible parameters and interactions.
@@ -216,8 +220,10 @@ std::string response_markdown(const ResponseTable& table, const Objective& objec
     for (const std::string& line : left_out_lines(table)) why += fmt::format("- {}\n", line);
     return why;
   }
-  const auto sensitivity = table.ranges.size() > 1 ? sensitivity_of(table, objective)
-                                                   : Result<Sensitivity>(failure(kOneParameter));
+  const Effect effect = effect_of(table, objective);
+  const auto sensitivity = table.ranges.size() > 1
+                               ? sensitivity_of(table, objective)
+                               : Result<Sensitivity>(failure(why_no_indices_of_one(effect)));
   std::string text =
       fmt::format("Objective: {}.\n{}", text_of(objective), best_markdown(table, objective, *best));
   text += fmt::format("Best values: {}.\n{}", text_of(*best, table), gain_markdown(*best));
@@ -229,7 +235,7 @@ std::string response_markdown(const ResponseTable& table, const Objective& objec
                                   seeds, seeds < 10 ? ", too narrow for so few" : "");
   text += '\n';
   text += to_markdown(parameter_table(table, *best, sensitivity ? &*sensitivity : nullptr));
-  text += "\n" + text_of(effect_of(table, objective)) + "\n";
+  text += "\n" + text_of(effect) + "\n";
   text += sensitivity ? sensitivity_markdown(table, *sensitivity)
                       : "\nNo indices: " + sensitivity.error().message + ".\n";
   return text;

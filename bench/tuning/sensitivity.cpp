@@ -67,6 +67,11 @@ std::vector<Interval> intervals_over_seeds(const ResponseTable& table, const Obj
 
 }  // namespace
 
+std::string why_no_indices_of_one(const Effect& effect) {
+  return effect.is_resolved() ? "one parameter was varied, whose index is 100 % by definition"
+                              : "one parameter was varied, without an effect that is resolved";
+}
+
 bool Sensitivity::is_negligible(std::size_t parameter) const {
   if (!is_resolved()) return false;
   return indices.total[parameter] < kNegligibleIndex &&

@@ -20,8 +20,7 @@ namespace aims {
 inline constexpr double kLeastExplained = 0.9;
 
 /// Why there are no indices of a single parameter.
-inline constexpr const char* kOneParameter =
-    "one parameter was varied, whose index is 100 % by definition";
+std::string why_no_indices_of_one(const Effect& effect);
 
 /// Global sensitivity of the logarithm of the objective (of itself where it can be zero): from the
 /// points themselves where they form a grid or a part of one, else from a surrogate.

@@ -2,13 +2,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <utility>
 
 #include "bench/scoring/columns.hpp"
 #include "bench/scoring/validity.hpp"
+#include "bench/tuning/sweep_plan.hpp"
 #include "bench/tuning/sweep_store.hpp"
 #include "core/files/csv.hpp"
+#include "core/files/yaml_config.hpp"
 
 namespace aims {
 namespace {
@@ -39,6 +42,50 @@ class Columns {
   std::vector<std::string> names_;
 };
 
+/// What makes the jobs of a folder those of one sweep.
+struct FolderPlan {
+  fs::path file;
+  std::string code;
+  SweepPlan plan;
+};
+
+Result<FolderPlan> folder_plan(const JobStore& folder, const std::string& text) {
+  FolderPlan result{folder.path() / "plan.yaml", folder.code().value_or(""), {}};
+  const auto read = load_config_text(text, result.file, result.plan);
+  if (!read) return tl::unexpected(read.error());
+  return result;
+}
+
+/// "params: [a=0:1:3] and [b=0:1:3]" of each of these keys that differs.
+std::vector<std::string> differences(FolderPlan& a, FolderPlan& b,
+                                     std::span<const char* const> keys) {
+  const Fields of_a = fields_of(a.plan);
+  const Fields of_b = fields_of(b.plan);
+  std::vector<std::string> texts;
+  for (const char* key : keys) {
+    const std::string left = of_a.find(key)->text();
+    const std::string right = of_b.find(key)->text();
+    if (left != right) texts.push_back(fmt::format("{}: {} and {}", key, left, right));
+  }
+  return texts;
+}
+
+/// Error where the points of two folders would not be on the same sequences: all else must be
+/// alike where one of the free keys differs.
+Result<void> check_plans(FolderPlan a, FolderPlan b) {
+  constexpr std::array kFixed = {"params", "set", "design", "samples", "design_seed"};
+  constexpr std::array kFree = {"seeds", "scenarios", "tags", "estimators"};
+  std::vector<std::string> found = differences(a, b, kFixed);
+  if (a.code != b.code) found.push_back(fmt::format("code: {} and {}", a.code, b.code));
+  const std::vector<std::string> free = differences(a, b, kFree);
+  if (found.empty() && free.size() < 2) return {};
+  found.insert(found.end(), free.begin(), free.end());
+  return failure(fmt::format(
+      "{} and {} are different plans ({}); expected folders of one plan, or of plans that differ "
+      "in seeds, scenarios, tags or estimators alone; nothing was written, merge each on its own",
+      a.file.string(), b.file.string(), fmt::join(found, "; ")));
+}
+
 }  // namespace
 
 std::string MergedJob::outcome() const {
@@ -60,12 +107,19 @@ Result<MergedSweep> merge_sweeps(std::span<const fs::path> folders) {
   MergedSweep sweep;
   std::map<std::string, std::size_t> index;
   std::set<std::string> others;
+  std::optional<FolderPlan> first;
   for (const fs::path& path : folders) {
     const JobStore folder(path);
     auto listed = folder.listed();
     if (!listed) return tl::unexpected(listed.error());
     const auto plan = folder.plan();
     if (!plan) return tl::unexpected(plan.error());
+    const auto read = folder_plan(folder, *plan);
+    if (!read) return tl::unexpected(read.error());
+    if (!first) first = *read;
+    if (auto same = check_plans(*first, *read); !same) {
+      return tl::unexpected(same.error());
+    }
     if (std::find(sweep.plans.begin(), sweep.plans.end(), *plan) == sweep.plans.end()) {
       sweep.plans.push_back(*plan);
     }

@@ -39,7 +39,8 @@ struct MergedSweep {
 };
 
 /// Reads the folders' jobs; of a job that several have, the one that is done. Works while sweeps
-/// fill them: what is not there yet is missing. Error when one is not the folder of a sweep.
+/// fill them: what is not there yet is missing. Error when one is not the folder of a sweep, and
+/// for different plans, unless they differ in seeds, scenarios, tags or estimators alone.
 Result<MergedSweep> merge_sweeps(std::span<const std::filesystem::path> folders);
 
 /// Writes the jobs as an SQLite database with the tables jobs, parameters, scores and about. The

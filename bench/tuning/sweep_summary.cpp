@@ -67,14 +67,39 @@ void add_default_point(ResponseTable& table) {
   table.runs.push_back(table.default_runs);
 }
 
-/// Adds the estimators that a plan gives a label, with their settings in order.
-void add_labelled(const std::vector<std::string>& texts, std::vector<EstimatorSpec>& labelled) {
+/// Adds a plan's estimators with their settings in order; one without a label has its name.
+void add_planned(const std::vector<std::string>& texts, std::vector<EstimatorSpec>& planned) {
   for (const std::string& text : texts) {
     auto spec = parse_estimator_spec(text);
-    if (!spec || spec->label == label_of(unlabelled_text(*spec))) continue;
+    if (!spec) continue;
+    if (spec->label == label_of(unlabelled_text(*spec))) spec->label = spec->name;
     std::ranges::sort(spec->settings);
-    labelled.push_back(std::move(*spec));
+    const bool known = std::ranges::any_of(planned, [&](const EstimatorSpec& each) {
+      return unlabelled_text(each) == unlabelled_text(*spec);
+    });
+    if (!known) planned.push_back(std::move(*spec));
   }
+}
+
+/// The name and the settings that are not varied.
+std::string fixed_text(EstimatorSpec spec, const std::vector<ParameterRange>& ranges) {
+  std::erase_if(spec.settings, [&](const auto& setting) {
+    return std::ranges::any_of(
+        ranges, [&](const ParameterRange& range) { return range.key == setting.first; });
+  });
+  return unlabelled_text(spec);
+}
+
+/// The one estimator of the plans that differs from `spec` in varied values alone; null of none and
+/// of several.
+const EstimatorSpec* planned_as(const EstimatorSpec& spec, const VariedParameters& varied) {
+  const EstimatorSpec* found = nullptr;
+  for (const EstimatorSpec& each : varied.planned) {
+    if (fixed_text(each, varied.ranges) != fixed_text(spec, varied.ranges)) continue;
+    if (found != nullptr) return nullptr;
+    found = &each;
+  }
+  return found;
 }
 
 Result<SweepResponse> response_of(const Collected& collected, const VariedParameters& varied,
@@ -118,7 +143,7 @@ Result<VariedParameters> varied_in(const MergedSweep& sweep) {
                                      [&](const auto& each) { return each.key == range.key; });
       if (!known) varied.ranges.push_back(std::move(range));
     }
-    add_labelled(plan.estimators, varied.labelled);
+    add_planned(plan.estimators, varied.planned);
     if (auto added = add_python_estimators(plan.estimators, varied.base); !added) {
       return tl::unexpected(added.error());
     }
@@ -153,8 +178,12 @@ std::optional<PlacedJob> placed_job(const MergedJob& job, const VariedParameters
   for (const auto& [key, value] : all_settings.items()) {
     settings[key] = value.is_string() ? value.get<std::string>() : json_text(value, -1);
   }
+  placed.estimator.settings.assign(settings.begin(), settings.end());
+  const EstimatorSpec* planned = planned_as(placed.estimator, varied);
+  const bool as_planned =
+      planned != nullptr && unlabelled_text(*planned) == unlabelled_text(placed.estimator);
   for (const ParameterRange& range : varied.ranges) {
-    const auto found = settings.find(range.key);
+    const auto found = as_planned ? settings.end() : settings.find(range.key);
     if (found == settings.end()) continue;
     const auto value = number_in(found->second);
     if (!value) return std::nullopt;
@@ -163,11 +192,10 @@ std::optional<PlacedJob> placed_job(const MergedJob& job, const VariedParameters
   }
   if (!placed.values.empty() && placed.values.size() != varied.ranges.size()) return std::nullopt;
   placed.estimator.settings.assign(settings.begin(), settings.end());
-  for (const EstimatorSpec& each : varied.labelled) {
-    if (unlabelled_text(each) == unlabelled_text(placed.estimator)) {
-      placed.estimator.label = each.label;
-    }
+  for (const EstimatorSpec& each : varied.planned) {
+    if (unlabelled_text(each) == unlabelled_text(placed.estimator)) placed.estimator = each;
   }
+  if (planned != nullptr) placed.estimator = *planned;
   const std::string family = value_in(job.file, "family", "");
   placed.on = {job.listed.scenario, family.empty() ? job.listed.scenario : family,
                value_in(job.file, "seed", std::uint64_t{0})};

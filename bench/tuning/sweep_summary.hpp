@@ -18,8 +18,8 @@ namespace aims {
 /// The ranges of a sweep's plans, each key once, and the settings of the estimators besides.
 struct VariedParameters {
   std::vector<ParameterRange> ranges;
-  EstimatorConfigs base;                ///< without the varied values
-  std::vector<EstimatorSpec> labelled;  ///< of the plans, those that were given a label
+  EstimatorConfigs base;               ///< without the varied values
+  std::vector<EstimatorSpec> planned;  ///< of the plans, with sorted settings
   /// What scenarios have themselves of varied keys that are not the estimator's; that of the first
   /// one where they differ.
   std::map<std::string, double> scenario_values;
@@ -30,7 +30,7 @@ Result<VariedParameters> varied_in(const MergedSweep& sweep);
 
 /// The point of a design that a job evaluates.
 struct PlacedJob {
-  EstimatorSpec estimator;     ///< with the settings that are not varied
+  EstimatorSpec estimator;     ///< as planned; else with the settings that are not varied
   std::vector<double> values;  ///< of each range; empty: the default setting
   ResponseCase on;
   JobResult result;

@@ -30,13 +30,15 @@ std::vector<double> start_of(const TuneTask& task) {
   return fractions;
 }
 
-/// The point in the parameters' own units.
+/// The point in the parameters' own units, whole where they are.
 std::vector<double> values_of(const TuneTask& task, const std::vector<double>& fractions) {
   if (fractions == start_of(task) && defaults_outside(task).empty()) return task.defaults;
   std::vector<double> values;
   for (std::size_t i = 0; i < fractions.size(); ++i) {
     values.push_back(value_at(task.ranges[i], fractions[i]));
   }
+  const auto settings = settings_of(task, values);
+  for (std::size_t i = 0; i < settings.size(); ++i) values[i] = std::stod(settings[i].second);
   return values;
 }
 
@@ -129,14 +131,14 @@ class Tuning {
     result_.chosen = pareto_front(values);
   }
 
-  /// Where the chosen point has other values than the defaults of parameters without effect, the
-  /// one with the defaults is run and chosen, unless it turns out to be worse.
+  /// Where the chosen point has other values than the defaults of parameters that may have no
+  /// effect, the one with the defaults is run and chosen, unless it turns out to be worse.
   Result<void> keep_idle_defaults() {
     if (result_.tables.size() != 1 || result_.chosen.empty() || !result_.complete) return {};
     const TuneTask& task = result_.task;
     ResponseTable& table = result_.tables.front();
     std::vector<double> values = table.points[result_.chosen.front()];
-    const std::vector<bool> idle = without_effect(table);
+    const std::vector<bool> idle = alike_in_pairs(table);
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (idle[i]) values[i] = task.defaults[i];
     }
@@ -227,7 +229,7 @@ std::vector<Job> jobs_of(std::span<const EstimatorSpec> estimators,
 }  // namespace
 
 bool keeps_defaults(const TuneResult& result) {
-  return result.tables.size() == 1 && result.chosen == std::vector<std::size_t>{0};
+  return result.chosen == std::vector<std::size_t>{0};
 }
 
 std::vector<std::string> defaults_outside(const TuneTask& task) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 
 #include "bench/metrics/paired_test.hpp"
 #include "bench/run/code_version.hpp"
@@ -216,9 +217,14 @@ std::string sequences_text(std::span<const ScenarioSeed> sequences) {
 }
 
 std::string search_text(const TuneResult& result) {
+  std::size_t points = result.generation.size();
+  if (!result.tables.empty()) {
+    const auto& all = result.tables.front().points;
+    points = std::set<std::vector<double>>(all.begin(), all.end()).size();
+  }
   const int generations = result.generation.empty() ? 0 : result.generation.back();
-  return fmt::format("{} different points in {} generations of {}, seed {}{}",
-                     result.generation.size(), generations, result.task.plan.optimizer.population,
+  return fmt::format("{} different points in {} generation{} of {}, seed {}{}", points, generations,
+                     generations == 1 ? "" : "s", result.task.plan.optimizer.population,
                      result.task.plan.optimizer.seed, result.converged ? ", converged" : "");
 }
 
@@ -244,6 +250,12 @@ std::vector<std::string> verdict_lines(const TuneResult& result) {
 std::string held_out_verdict(const TuneResult& result) {
   if (keeps_defaults(result) && all_diverged(result.tables.front())) {
     return "undecided: every run diverged or failed, with the defaults and with every other point";
+  }
+  if (keeps_defaults(result) && result.tables.size() > 1) {
+    return fmt::format(
+        "keep the defaults: the Pareto front has no other point: none of the {} others is better in "
+        "an objective on the sequences tuned on",
+        result.generation.size() - 1);
   }
   if (keeps_defaults(result)) {
     return fmt::format(
@@ -337,8 +349,8 @@ TextTable front_table(const TuneResult& result) {
   TextTable text;
   for (const ParameterRange& range : task.ranges) text.header.push_back(range.key);
   for (const Objective& objective : task.plan.objectives) {
-    text.header.push_back(value_label(objective));
-    if (!result.held_out.empty()) text.header.push_back(value_label(objective) + ", held out");
+    text.header.push_back(axis_label(objective));
+    if (!result.held_out.empty()) text.header.push_back(axis_label(objective) + ", held out");
   }
   if (!result.held_out.empty()) text.header.emplace_back("against the defaults, held out");
   const auto row = [&](const std::vector<double>& values, std::size_t point, std::size_t held) {

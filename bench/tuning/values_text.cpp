@@ -16,6 +16,7 @@ constexpr double kEdge = 0.02;  ///< this near to an end, in widths of the range
 /// " (at the lower edge ...)", or nothing.
 std::string edge_text(const ParameterRange& range, double value) {
   const double fraction = fraction_of(range, value);
+  if (fraction < -kEdge || fraction > 1.0 + kEdge) return "";  // a default beyond the range
   const bool lower = fraction <= kEdge;
   if (!lower && fraction < 1.0 - kEdge) return "";
   const Range allowed = allowed_values(range);

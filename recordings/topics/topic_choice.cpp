@@ -101,6 +101,8 @@ class Chooser {
   Chooser(const std::filesystem::path& bag, std::span<const BagConnection> connections)
       : bag_(bag), connections_(connections) {}
 
+  std::span<const BagConnection> connections() const { return connections_; }
+
   /// The requested topic, if it exists and has a suitable type.
   Result<std::string> requested(const Request& request, const std::string& topic) const {
     const auto found = find(topic);
@@ -246,6 +248,17 @@ struct Choice {
   }
 };
 
+/// Poses that a topic's name says to be true are read only when asked for.
+void note_possible_truth(std::span<const BagConnection> connections,
+                         std::vector<std::string>& notes) {
+  for (const BagConnection& each : connections) {
+    if (!is_truth(each) || !is_called_truth(each) || each.messages == 0) continue;
+    notes.push_back(fmt::format(
+        "{} may be the truth and is not read: to score against it, recording.topics.truth={}",
+        each.topic, each.topic));
+  }
+}
+
 Choice choice_of(const Chooser& chooser, const TopicsConfig& configured,
                  std::vector<std::string>& notes) {
   const Request lidar = {"lidar", "sensor_msgs/PointCloud2 or a livox CustomMsg", is_cloud};
@@ -267,7 +280,11 @@ Choice choice_of(const Chooser& chooser, const TopicsConfig& configured,
     choice.keep(topics.truth, chooser.requested(truth, configured.truth));
   } else if (configured.truth.empty()) {
     const BagConnection* known = chooser.find(kTruthImuTopic);
-    if (known != nullptr && is_truth(*known)) topics.truth = known->topic;
+    if (known != nullptr && is_truth(*known)) {
+      topics.truth = known->topic;
+    } else {
+      note_possible_truth(chooser.connections(), notes);
+    }
   }
   return choice;
 }

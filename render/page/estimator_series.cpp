@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <vector>
 
+#include "bench/metrics/statistics.hpp"
 #include "bench/scoring/start_anchor.hpp"
 #include "render/page/run_series.hpp"
 #include "render/page/series.hpp"
@@ -141,17 +144,41 @@ Result<void> add_diagnostics(const CsvColumns& table, const Trajectory& poses, P
   return {};
 }
 
+/// Longest step between poses that is no gap: as for the scores, and three times the usual one.
+Duration longest_step(const Trajectory& poses, double max_gap) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    steps.push_back(to_seconds(poses[i].stamp - poses[i - 1].stamp));
+  }
+  return from_seconds(std::max(max_gap, 3.0 * median(steps).value_or(0.0)));
+}
+
+/// The poses that are shown, in the world. In the middle of a gap stands a pose without numbers, so
+/// that lines break there.
+Trajectory shown_poses(const Trajectory& trajectory, const Pose& T_world_odom, double max_gap) {
+  const Duration longest = longest_step(trajectory, max_gap);
+  Trajectory poses;
+  std::size_t next = 0;
+  for (const std::size_t i : shown(trajectory.size())) {
+    for (; next < i; ++next) {
+      const Duration step = trajectory[next + 1].stamp - trajectory[next].stamp;
+      if (step <= longest) continue;
+      const Pose none{Eigen::Quaterniond(kNone, kNone, kNone, kNone),
+                      Eigen::Vector3d::Constant(kNone)};
+      poses.push_back({trajectory[next].stamp + step / 2, none});
+    }
+    poses.push_back({trajectory[i].stamp, T_world_odom * trajectory[i].pose});
+  }
+  return poses;
+}
+
 }  // namespace
 
 Result<Json> series_json(const EstimatorFiles& estimator, const RunFolder& run, double start,
                          PageData& page) {
   if (estimator.trajectory.empty()) return Json();
   const Pose T_world_odom = start_anchor(estimator.trajectory, run.truth, run.scoring);
-  Trajectory poses;
-  for (const std::size_t i : shown(estimator.trajectory.size())) {
-    const StampedPose& each = estimator.trajectory[i];
-    poses.push_back({each.stamp, T_world_odom * each.pose});
-  }
+  const Trajectory poses = shown_poses(estimator.trajectory, T_world_odom, run.scoring.max_gap);
   Json json = poses_json(poses, start, page);
   Numbers covariances;
   if (estimator.diagnostics) {

@@ -32,7 +32,11 @@ constexpr std::array<std::string_view, 6> kNoSettings = {"name",   "description"
 /// As of a valid pose [m].
 constexpr float kFarthestPoint = 1e6F;
 
+/// Of a class in Python: stands for its files, nobody sets it.
+constexpr std::string_view kCodeHash = ".code_hash";
+
 bool is_setting(const std::string& key) {
+  if (key.ends_with(kCodeHash)) return false;
   return std::none_of(kNoSettings.begin(), kNoSettings.end(),
                       [&](std::string_view prefix) { return (key + ".").starts_with(prefix); });
 }

@@ -83,17 +83,19 @@ Json runs_of(const Json& suite, const fs::path& folder, const fs::path& page_fol
 /// More scenarios than these are counted in a title, not named.
 constexpr std::size_t kMostNames = 3;
 
-/// The name that the folder was given; of the one that `aims suite` takes by itself, the content.
+/// The scenarios where they are few. Of more the name that the folder was given, or the content
+/// where that is the one that `aims suite` takes by itself.
 std::string title_of(const Json& suite, const fs::path& folder) {
-  const std::string name = folder_name(folder);
-  if (name != "suite") return name;
   std::vector<std::string> scenarios;
   std::set<std::string> families;
   for (const Json& each : suite["scenarios"]) {
     scenarios.push_back(text_in(each, "name"));
     families.insert(text_in(each, "family"));
   }
-  if (scenarios.size() <= kMostNames) return fmt::format("{}", fmt::join(scenarios, ", "));
+  if (!scenarios.empty() && scenarios.size() <= kMostNames)
+    return fmt::format("{}", fmt::join(scenarios, ", "));
+  const std::string name = folder_name(folder);
+  if (name != "suite") return name;
   const bool one_family = families.size() == 1 && !families.begin()->empty();
   if (one_family) return fmt::format("{}, {} levels", *families.begin(), scenarios.size());
   return fmt::format("{} scenarios, {} estimators", scenarios.size(),

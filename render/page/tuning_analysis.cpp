@@ -184,10 +184,11 @@ Json analysis_json(const ResponseTable& table, const Objective& objective, PageD
     return json;
   }
   json["best"] = best_json(table, *best);
-  json["effect"] = text_of(effect_of(table, objective));
+  const Effect effect = effect_of(table, objective);
+  json["effect"] = text_of(effect);
   const auto sensitivity = sensitivity_of(table, objective);
   if (table.ranges.size() == 1) {
-    json["why_no_sensitivity"] = kOneParameter;
+    json["why_no_sensitivity"] = why_no_indices_of_one(effect);
   } else if (sensitivity) {
     json["sensitivity"] = sensitivity_json(*sensitivity, table.ranges.size());
   } else {

@@ -72,6 +72,15 @@ TEST_F(EstimateHealth, WithoutALidarThereArePosesAndItIsSaid) {
   EXPECT_TRUE(holds(outcome, "no LiDAR scans")) << outcome.output;
 }
 
+TEST_F(EstimateHealth, HealthyWhileWrongIsSaid) {
+  const Outcome outcome = aims(
+      "estimate walk.bag --estimators aims_d --set scoring.max_error_offset=1e-6 "
+      "--set scoring.max_error_per_path=1e-6 --no-pictures --no-page --quiet --out out");
+  EXPECT_TRUE(holds(outcome, "s while wrong")) << outcome.output;
+  EXPECT_NE(read_file(folder_.path() / "out" / "scores.json").value().find("healthy_while_wrong_s"),
+            std::string::npos);
+}
+
 TEST_F(EstimateHealth, AnAssumedTransformIsAWarningAtTheEndAndInTheHealth) {
   const Outcome outcome = aims(
       "estimate walk.bag --estimators lio,leg --set recording.lidar_frame=nowhere --no-pictures "

@@ -50,6 +50,23 @@ TEST_F(ScenarioFolder, ItsWrittenConfigurationIsReadAgain) {
   EXPECT_EQ(again->expect.front().min, -kNoLimit);
 }
 
+TEST_F(ScenarioFolder, ItsDescriptionNamesWhatWasSetOnTopOfTheFile) {
+  write("plain.yaml", "description: A wide hall.");
+  const auto description = [&](const std::vector<std::string>& settings) {
+    const auto scenario = load_scenario(folder_.path() / "plain.yaml", settings);
+    EXPECT_TRUE(scenario) << scenario.error().message;
+    write("again.yaml", effective_config(*scenario, 1).c_str());
+    return load_scenario(folder_.path() / "again.yaml", {})->description;
+  };
+  EXPECT_EQ(description({}), "A wide hall.");
+  EXPECT_EQ(description({"estimators.aims.degeneracy.eta=5"}), "A wide hall.");
+  EXPECT_EQ(description({"lidar.columns=450"}),
+            "A wide hall. With changed settings: lidar.columns=450.");
+  write("plain.yaml", "description: A hall");
+  EXPECT_EQ(description({"lidar.columns=450"}),
+            "A hall. With changed settings: lidar.columns=450.");
+}
+
 TEST_F(ScenarioFolder, RefusesTwoFilesOfOneName) {
   write("a/same.yaml", "seed: 1");
   write("b/same.yaml", "seed: 2");

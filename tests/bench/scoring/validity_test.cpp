@@ -172,5 +172,34 @@ TEST(Validity, ExpectationsOfEstimatorsAreOfValidRuns) {
   EXPECT_FALSE(none.value);
 }
 
+TEST(ScoreTable, HasARowForAnEstimatorThatFailed) {
+  std::vector<RunRecord> runs = {record(1, 0.1, kFine), record(2, 0.2, kFine),
+                                 record(3, 0.3, kFine)};
+  for (RunRecord& run : runs) {
+    run.scores["failures"] = {{{"estimator", "broken"}, {"message", "no such file"}}};
+  }
+  runs.front().scores["failures"].push_back({{"estimator", "some"}, {"message", "killed"}});
+  for (std::size_t i = 1; i < 3; ++i) {
+    runs[i].scores["estimators"]["some"] = runs[i].scores["estimators"]["aims"];
+  }
+  const auto success_of = [](const TextTable& table, const std::string& name) {
+    const auto column = std::ranges::find(table.header, "within 5 %") - table.header.begin();
+    const auto row =
+        std::ranges::find_if(table.rows, [&](const auto& each) { return each[0] == name; });
+    return row == table.rows.end() ? "no row" : (*row)[static_cast<std::size_t>(column)];
+  };
+  const TextTable table = score_table(runs);
+  EXPECT_EQ(success_of(table, "broken"), "failed (3 of 3 seeds)");
+  EXPECT_TRUE(success_of(table, "some").ends_with(", 1 failed")) << success_of(table, "some");
+  EXPECT_TRUE(success_of(table, "aims").starts_with("3/3"));
+  EXPECT_EQ(success_of(score_table({runs.data(), 1}), "broken"), "failed");
+}
+
+TEST(ScoreStatistics, OfErrorsWithASignTheWorstIsTheLargest) {
+  EXPECT_EQ(worst_of({-3.0, 1.0, 2.0}, "drift_m.end.longitudinal"), -3.0);
+  EXPECT_EQ(worst_of({0.1, 0.3}, "ate_yaw_m"), 0.3);
+  EXPECT_EQ(worst_of({0.0, 1.0}, "success"), 0.0);
+}
+
 }  // namespace
 }  // namespace aims

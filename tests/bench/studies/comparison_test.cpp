@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <utility>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -72,6 +73,25 @@ TEST(Compare, PassesOverSmallChangesAndNoise) {
   noisy[1] -= 0.2;
   noisy[2] -= 0.1;
   EXPECT_EQ(ate_change(compare(results(kBefore), results(noisy))).verdict, ChangeVerdict::kNone);
+}
+
+TEST(Compare, NamesADetectableChangeWhereNothingWasDetectedAlone) {
+  const auto detectable = [](const std::vector<double>& after) {
+    const TextTable table = change_table(compare(results(kBefore), results(after)));
+    const auto column = std::ranges::find(table.header, "detectable") - table.header.begin();
+    for (const auto& row : table.rows) {
+      if (row[2] == "ate_m") return row[static_cast<std::size_t>(column)];
+    }
+    return std::string("no row");
+  };
+  std::vector<double> noisy = kBefore;
+  noisy[0] += 0.5;
+  noisy[1] -= 0.2;
+  noisy[2] -= 0.1;
+  EXPECT_NE(detectable(noisy), "-");
+  EXPECT_EQ(detectable(kBefore), "-") << "same";
+  EXPECT_EQ(detectable(shifted(0.004)), "-") << "small";
+  EXPECT_EQ(detectable(shifted(0.1)), "-") << "worse";
 }
 
 TEST(Compare, OfTheSameResultsFindsNothingAndExpectsNothing) {

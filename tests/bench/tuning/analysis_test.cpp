@@ -183,6 +183,36 @@ TEST(BestPoint, AreTheDefaultsWhereNoPointIsBetter) {
   EXPECT_EQ(text.find("Reduction"), std::string::npos) << text;
 }
 
+TEST(BestPoint, OfAThousandthLessIsNotAReductionByZero) {
+  const auto ranges = ranges_of({"a=0:6:4"});
+  const auto of = [&](double slope) {
+    return table_of(ranges, {3.0}, design(DesignKind::kGrid, ranges, 0, 1), 1,
+                    [=](const std::vector<double>& point, const ResponseCase&) {
+                      return 1.0 + slope * point[0];
+                    });
+  };
+  const std::string small = response_markdown(of(0.0001), absolute());
+  EXPECT_NE(small.find("Reduction by less than 0.1 % on"), std::string::npos) << small;
+  EXPECT_NE(small.find("No indices: one parameter was varied, without an effect that is resolved."),
+            std::string::npos)
+      << small;
+  EXPECT_NE(response_markdown(of(0.5), absolute()).find("whose index is 100 % by definition"),
+            std::string::npos);
+}
+
+TEST(Objective, OfATimeSaysThatItDependsOnTheMachine) {
+  Objective objective = absolute();
+  EXPECT_EQ(text_of(objective).find("machine"), std::string::npos);
+  objective.score = "cpu_per_scan_ms";
+  EXPECT_NE(text_of(objective).find("a time depends on the machine"), std::string::npos);
+}
+
+TEST(Objective, HasTheUnitOfTheLastPartOfItsScore) {
+  EXPECT_EQ(unit_of_score("drift_m.rmse.heading_rad"), "rad");
+  EXPECT_EQ(unit_of_score("drift_m.rmse.longitudinal"), "m");
+  EXPECT_EQ(unit_of_score("m_list_percent.all"), "%");
+}
+
 TEST(BestPoint, KeepsTheDefaultOfAParameterWithoutEffect) {
   const auto ranges = ranges_of({"a=0:6:4", "inert=0:0.2:3"});
   const auto table = table_of(ranges, {3.0, 0.05}, design(DesignKind::kGrid, ranges, 0, 1), 3,
@@ -198,6 +228,54 @@ TEST(BestPoint, KeepsTheDefaultOfAParameterWithoutEffect) {
             std::string::npos)
       << text;
   EXPECT_NE(text.find("| no effect measured |"), std::string::npos) << text;
+}
+
+// b acts except where a is 0, and all pairs that differ in b alone are there.
+TEST(Effect, OfAParameterIsNotDeniedByPairsAtOneValueOfAnother) {
+  const auto ranges = ranges_of({"a=0:6:4", "b=0:1:4"});
+  const std::vector<std::vector<double>> points = {{0, 0},   {0, 0.3}, {0, 0.7}, {0, 1},
+                                                   {0, 0.5}, {3, 0.2}, {5, 0.9}, {6, 0.4}};
+  const auto score = [](const std::vector<double>& point, const ResponseCase&) {
+    return 1.0 + 0.1 * point[0] * point[1];
+  };
+  EXPECT_EQ(without_effect(table_of(ranges, {3.0, 0.5}, points, 3, score)),
+            (std::vector<bool>{false, false}));
+  const auto inert = [](const std::vector<double>& point, const ResponseCase&) {
+    return 1.0 + 0.1 * point[0];
+  };
+  const std::vector<std::vector<double>> near = {{0, 0.5}, {0, 0.51}, {3, 0.5}, {3, 0.51},
+                                                 {6, 0.5}, {6, 0.51}, {2, 0.0}, {4, 1.0}};
+  EXPECT_EQ(without_effect(table_of(ranges, {3.0, 0.5}, near, 3, inert)),
+            (std::vector<bool>{false, false}))
+      << "pairs over 1 % of its range";
+  EXPECT_EQ(without_effect(
+                table_of(ranges, {3.0, 0.5}, design(DesignKind::kGrid, ranges, 0, 1), 3, inert)),
+            (std::vector<bool>{false, true}));
+}
+
+TEST(Effect, OfASinglePointOrASmallOneIsSaidToBeThat) {
+  const auto ranges = ranges_of({"a=0:1:12"});
+  const auto of = [&](double base, double effect, double noise) {
+    return table_of(ranges, {0.5}, design(DesignKind::kGrid, ranges, 0, 1), 6,
+                    [=](const std::vector<double>& point, const ResponseCase& on) {
+                      RandomStream random = rng(on.seed, fmt::format("{} {}", point[0], on.scenario));
+                      return base *
+                             std::exp((point[0] == 1.0 ? effect : 0.0) + noise * random.normal());
+                    });
+  };
+  const Effect single = effect_of(of(1.0, 0.5, 0.01), absolute());
+  ASSERT_TRUE(single.is_resolved());
+  EXPECT_TRUE(single.of_one_point);
+  EXPECT_FALSE(single.small);
+  EXPECT_NE(text_of(single).find("by a single point alone"), std::string::npos) << text_of(single);
+  EXPECT_NE(text_of(single).find("permutation test on the variance over points of their sums over "
+                                 "seeds, 199 draws"),
+            std::string::npos);
+  EXPECT_TRUE(effect_of(of(1.0, 0.004, 0.0), absolute()).small) << "0.4 %";
+  EXPECT_TRUE(effect_of(of(0.01, 0.5, 0.0), absolute()).small) << "6 mm";
+  EXPECT_NE(text_of(effect_of(of(1.0, 0.004, 0.0), absolute())).find("; small, as comparisons"),
+            std::string::npos);
+  EXPECT_NE(text_of(effect_of(of(1.0, 0.9, 0.0), absolute())).find("(146 %)"), std::string::npos);
 }
 
 TEST(Effect, BelowTheScatterOfSeedsResolvesNoIndex) {

@@ -130,6 +130,40 @@ TEST(SweepReport, KeepsTheLabelOfAnEstimator) {
   EXPECT_EQ(responses->front().estimator, "slow=aims+degeneracy.alpha=0.5");
 }
 
+TEST(SweepReport, KeepsTheLabelOfAnEstimatorThatSetsTheVariedKey) {
+  MergedSweep sweep = sweep_over_eta(true);
+  sweep.plans = {
+      "params: [\"degeneracy.eta=0:6:13\"]\nscenarios: [corridor]\n"
+      "estimators: [high=aims+degeneracy.eta=5.2]\n"};
+  for (MergedJob& job : sweep.jobs) {
+    if (job.file["settings"].empty()) job.file["settings"][kEta] = "5.2";
+  }
+  const auto responses = sweep_responses(sweep, "ate_yaw_m");
+  ASSERT_TRUE(responses) << responses.error().message;
+  ASSERT_EQ(responses->size(), 1U);
+  EXPECT_EQ(responses->front().estimator, "high=aims+degeneracy.eta=5.2");
+  EXPECT_EQ(responses->front().table.points.size(), 13U);
+  EXPECT_EQ(responses->front().table.default_runs.size(), 4U);
+  EXPECT_EQ(responses->front().table.defaults, std::vector<double>{5.2});
+}
+
+TEST(SweepReport, CallsNoPointBestByWhatIsNotResolved) {
+  MergedSweep sweep = sweep_over_eta(true);
+  std::erase_if(sweep.jobs, [](const MergedJob& job) { return job.listed.seed != "1"; });
+  for (MergedJob& job : sweep.jobs) {
+    double& ate = job.file["scores"]["ate_yaw_m"].get_ref<double&>();
+    ate = 1.0 + 0.001 * ate;
+  }
+  const auto responses = sweep_responses(sweep, "ate_yaw_m");
+  ASSERT_TRUE(responses);
+  const std::string text = to_text(point_table(*responses, Objective()));
+  EXPECT_TRUE(says(text, " least, not resolved")) << text;
+  EXPECT_FALSE(says(text, " best")) << text;
+  EXPECT_TRUE(
+      says(to_text(point_table(*sweep_responses(sweep_over_eta(true), "ate_yaw_m"), Objective())),
+           " best"));
+}
+
 TEST(SweepReport, KnowsWhatScenariosHaveOfVariedKeysOfTheirOwn) {
   MergedSweep sweep;
   sweep.plans = {"params: [\"links.leg_odometry.loss=0:0.5:6\"]\nscenarios: [corridor]\n"};

@@ -231,6 +231,30 @@ TEST_F(Sweep, MergesFoldersIntoOneDatabaseAndTable) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3);
 }
 
+TEST_F(Sweep, OfAnotherPlanIsNotMerged) {
+  const auto folder_of = [&](const char* name, const std::string& plan) {
+    const fs::path folder = folder_.path() / name;
+    fs::create_directories(folder);
+    EXPECT_TRUE(JobStore(folder).enter(jobs_, plan, false));
+    return folder;
+  };
+  const std::string base = "scenarios: [corridor]\n";
+  const fs::path a = folder_of("a", base + "params: [\"degeneracy.eta=0:6:3\"]\n");
+  const fs::path b = folder_of("b", base + "params: [\"degeneracy.kappa=1:9:3\"]\n");
+  const fs::path c = folder_of("c", base + "params: [\"degeneracy.eta=0:6:3\"]\nseeds: 6-9\n");
+  const auto refused = merge_sweeps(std::vector{a, b});
+  ASSERT_FALSE(refused);
+  const std::string& why = refused.error().message;
+  for (const std::string part :
+       {(a / "plan.yaml").string() + " and " + (b / "plan.yaml").string(),
+        std::string("params: [degeneracy.eta=0:6:3] and [degeneracy.kappa=1:9:3]"),
+        std::string("nothing was written")}) {
+    EXPECT_NE(why.find(part), std::string::npos) << part << " in: " << why;
+  }
+  EXPECT_TRUE(merge_sweeps(std::vector{a, c})) << "more seeds";
+  EXPECT_FALSE(merge_sweeps(std::vector{b, c}));
+}
+
 TEST_F(Sweep, ADatabaseThatCannotBeWrittenIsNamed) {
   const fs::path file = folder_.path() / "nowhere" / "sweep.sqlite";
   const auto written = write_sqlite({}, file);

@@ -265,27 +265,46 @@ TEST(Tune, KeepsTheDefaultsWhereNothingIsBetter) {
   EXPECT_EQ(test::number(scenario->estimators, "aims.degeneracy.eta"), DegeneracyConfig{}.eta);
 }
 
-// alpha plays no part: points that differ in it alone are alike.
-TEST(Tune, LeavesAParameterWithoutEffectAtItsDefault) {
-  TunePlan plan = small_plan();
-  plan.params = {"degeneracy.eta=0:6", "degeneracy.alpha=0:0.99"};
-  const auto run = [](std::span<const EstimatorSpec> estimators,
-                      std::span<const ScenarioSeed> sequences) {
+/// A score that one key decides, the less its value the better.
+auto decided_by(const std::string& key, double otherwise) {
+  return [=](std::span<const EstimatorSpec> estimators, std::span<const ScenarioSeed> sequences) {
     SequenceScores scores;
     for (const EstimatorSpec& spec : estimators) {
-      const double score = 0.1 + 0.01 * setting(spec, "degeneracy.eta", 3.0);
+      const double score = 0.1 + 0.01 * setting(spec, key, otherwise);
       scores.emplace_back(sequences.size(), std::vector<RunScore>{{score, false}});
     }
     return Result<std::optional<SequenceScores>>(std::move(scores));
   };
-  const auto result = tune(task_of(plan), run);
+}
+
+// alpha plays no part: points that differ in it alone are alike.
+TEST(Tune, LeavesAParameterWithoutEffectAtItsDefault) {
+  TunePlan plan = small_plan();
+  plan.params = {"lidar.max_iterations=1:4", "degeneracy.alpha=0:0.99"};
+  plan.optimizer.generations = 3;
+  plan.optimizer.population = 40;
+  const auto result = tune(task_of(plan), decided_by("lidar.max_iterations", 4.0));
   ASSERT_TRUE(result) << result.error().message;
   const ResponseTable& table = result->tables[0];
-  ASSERT_EQ(without_effect(table), (std::vector<bool>{false, true})) << "several have eta 0";
-  EXPECT_EQ(table.points[result->chosen[0]], (std::vector<double>{0.0, DegeneracyConfig{}.alpha}));
+  ASSERT_EQ(without_effect(table), (std::vector<bool>{false, true}));
+  EXPECT_EQ(table.points[result->chosen[0]], (std::vector<double>{1.0, DegeneracyConfig{}.alpha}));
   EXPECT_EQ(result->held_out[0].points[0], table.points[result->chosen[0]]);
   EXPECT_TRUE(says(verdict_lines(*result)[0], "alpha 0.9 as by default (no effect measured)"));
   EXPECT_EQ(result->generation.size(), table.points.size());
+}
+
+// All pairs that differ in alpha alone have eta 0.
+TEST(Tune, DeniesNoEffectByPairsAtTheEdgeOfARange) {
+  TunePlan plan = small_plan();
+  plan.params = {"degeneracy.eta=0:6", "degeneracy.alpha=0:0.99"};
+  const auto result = tune(task_of(plan), decided_by("degeneracy.eta", 3.0));
+  ASSERT_TRUE(result) << result.error().message;
+  const ResponseTable& table = result->tables[0];
+  EXPECT_EQ(without_effect(table), (std::vector<bool>{false, false}));
+  EXPECT_EQ(alike_in_pairs(table), (std::vector<bool>{false, true}));
+  EXPECT_EQ(table.points[result->chosen[0]], (std::vector<double>{0.0, DegeneracyConfig{}.alpha}))
+      << "the default of alpha was tried and is as good";
+  EXPECT_TRUE(says(verdict_lines(*result)[0], "alpha 0.9 as by default"));
 }
 
 TEST(Tune, WhereEveryRunDivergesNothingIsDecided) {
@@ -298,6 +317,33 @@ TEST(Tune, WhereEveryRunDivergesNothingIsDecided) {
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_TRUE(says(held_out_verdict(*result), "undecided: every run diverged or failed"));
   EXPECT_EQ(verdict_lines(*result)[0], "tuned values: none");
+}
+
+TEST(Tune, OfAFrontOfTheDefaultsAloneKeepsThemAndHoldsNothingOut) {
+  TunePlan plan = small_plan();
+  plan.params = {"degeneracy.eta=0:6"};
+  plan.objectives.emplace_back().score = "m_end_m";
+  plan.optimizer.population = 8;
+  const auto result = tune(task_of(plan), [](auto estimators, auto sequences) {
+    SequenceScores scores;
+    for (const EstimatorSpec& spec : estimators) {
+      const double score = 0.1 + 0.01 * std::abs(setting(spec, "degeneracy.eta", 3.0) - 3.0);
+      scores.emplace_back(sequences.size(),
+                          std::vector<RunScore>{{score, false}, {2.0 * score, false}});
+    }
+    return Result<std::optional<SequenceScores>>(std::move(scores));
+  });
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_TRUE(keeps_defaults(*result));
+  EXPECT_TRUE(result->held_out.empty());
+  EXPECT_TRUE(says(held_out_verdict(*result), "the Pareto front has no other point"))
+      << held_out_verdict(*result);
+}
+
+TEST(Tune, CountsOneGenerationAsOne) {
+  TuneResult result;
+  result.generation = {0, 1};
+  EXPECT_TRUE(says(search_text(result), "2 different points in 1 generation of "));
 }
 
 TEST(Tune, RunsADefaultOutsideOfItsRangeAsItIsAndSaysSo) {
@@ -326,7 +372,7 @@ TEST(Tune, TwoObjectivesGiveAFront) {
   EXPECT_LT(points[result->chosen.front()][0], points[result->chosen.back()][0]);
   const TextTable front = front_table(*result);
   EXPECT_GE(front.rows.size(), result->chosen.size());
-  EXPECT_EQ(front.header[3], "ate_yaw_m over the defaults'");
+  EXPECT_EQ(front.header[3], "objective: ate_yaw_m over the defaults'");
   EXPECT_EQ(front.header.size(), 3U + 4U + 1U);
   EXPECT_NE(held_out_verdict(*result).find("front"), std::string::npos)
       << held_out_verdict(*result);

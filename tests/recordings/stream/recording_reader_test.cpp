@@ -48,6 +48,21 @@ TEST_F(RecordingReaderTest, SeveralSuitableTopicsAreAnErrorThatNamesThem) {
   EXPECT_EQ(test::read_recording(bag(), config).error, "");
 }
 
+TEST_F(RecordingReaderTest, ATruthUnderAnotherNameIsNotReadAndNamed) {
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  robot.add_imu(kStart, 200);
+  robot.add_clouds(kStart, 5);
+  robot.add("/mocap/odom", odometry_type(), kStart, odometry(kStart));
+  robot.close();
+  EXPECT_TRUE(test::read_recording(bag()).noted(
+      "/mocap/odom may be the truth and is not read: to score against it, "
+      "recording.topics.truth=/mocap/odom"));
+  RecordingConfig config;
+  config.topics.truth = "none";
+  EXPECT_FALSE(test::read_recording(bag(), config).noted("may be the truth"));
+}
+
 TEST_F(RecordingReaderTest, ALidarThatStartsAMinuteLaterIsReadLikeAnyOther) {
   RobotRecording robot(bag());
   robot.add_transforms(kMounted);

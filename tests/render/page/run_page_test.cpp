@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
 
 #include "render/page/map_cloud.hpp"
 #include "render/page/page.hpp"
@@ -91,6 +92,28 @@ TEST_F(RunPage, HasTheDiagnosticsAtTheStampsOfThePoses) {
   EXPECT_FLOAT_EQ(page.f32(series["sigma_vertical"])[3], 0.02F);
   EXPECT_EQ(page.f32(series["position_covariance"]).size(), 6U * 20U);
   for (const float D : page.f32(series["D"])) EXPECT_FALSE(std::isnan(D));
+}
+
+TEST_F(RunPage, BreaksTheSeriesWhereAnEstimateHasAGap) {
+  testing::write_run(folder_.path() / "run", {});
+  const auto file = folder_.path() / "run" / "exact.tum";
+  std::istringstream lines(testing::content(file));
+  std::string text;
+  int pose = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const bool of_pose = !line.empty() && line.front() != '#';
+    const int at = of_pose ? pose++ : -1;
+    if (at < 10 || at >= 40) text += line + "\n";
+  }
+  testing::put(file, text);
+  const DecodedPage page = read();
+  const auto& series = page.json["estimators"][0]["series"];
+  const auto p = page.f32(series["p"]);
+  ASSERT_EQ(p.size(), 3U * 21U) << "20 poses and a break";
+  EXPECT_TRUE(std::isnan(p[30]));
+  EXPECT_FALSE(std::isnan(p[27]) || std::isnan(p[33]));
+  EXPECT_TRUE(std::isnan(page.f32(series["error_longitudinal"])[10]));
+  EXPECT_EQ(page.f32(page.json["estimators"][1]["series"]["t"]).size(), 50U);
 }
 
 TEST_F(RunPage, TellsDegenerateStretchesFromTheScanBeforeToTheirLast) {

@@ -86,6 +86,14 @@ void write_walk_suite(const fs::path& folder, double more = 0.0) {
   }
 }
 
+TEST(SuitePage, OfOneScenarioIsTitledByIt) {
+  const TemporaryFolder folder;
+  write_walk_suite(folder.path() / "out");
+  const auto page = suite_page(folder.path() / "out", {});
+  ASSERT_TRUE(page) << page.error().message;
+  EXPECT_EQ(page->title, "walk");
+}
+
 Json detectors(std::size_t points) {
   Json curve = Json::array();
   for (std::size_t i = 0; i < points; ++i) {

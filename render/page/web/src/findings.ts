@@ -20,6 +20,8 @@ export interface Finding {
   aside: { direction: "height" | "sideways"; most: number } | null;
   /** What constrained the weak axis there: median of the equivalent returns; null: not known. */
   returns: number | null;
+  /** What is missing of it where it fails by that: "has no poses for 12 s, from 34 s on". */
+  missing?: string | null;
   /** Healthy all along, as it says itself. */
   healthy: boolean;
 }
@@ -77,6 +79,7 @@ function asideText({ name, percent, aside }: Finding, unnoticed: string): string
 function lossText(each: Finding, route: Route): string {
   const unnoticed = each.healthy ? ", and calls itself healthy" : "";
   const { loss, percent, signed } = each;
+  if (!each.success && each.missing) return `${each.name} ${each.missing}`;
   if (loss && loss.most > 2 * route.length)
     return `${each.name} is lost from ${loss.from.toFixed(0)} s on${place(each.returns)}`;
   if (!each.success && each.aside && (percent ?? 0) <= kSuccess) return asideText(each, unnoticed);
@@ -132,7 +135,7 @@ export function finding(list: Finding[], route: Route): string {
 function withoutLengths(list: Finding[]): string {
   const good = list.filter((each) => each.success && isNumber(each.ate)).sort((a, b) => a.ate! - b.ate!);
   const failed = list.filter((each) => !each.success);
-  const texts = failed.slice(0, 2).map((each) => each.aside ? asideText(each, "") : `${each.name} fails`);
+  const texts = failed.slice(0, 2).map((each) => each.missing ? `${each.name} ${each.missing}` : each.aside ? asideText(each, "") : `${each.name} fails`);
   texts.push(...moreText(failed.slice(2)));
   const loss = texts.length > 0 ? `; ${texts.join("; ")}` : "";
   if (good.length === 0) return failed.length > 0 ? `No estimator stays near the truth from its start on${loss}.` : "";

@@ -17,7 +17,7 @@ before(async () => {
   folder = await mkdtemp(path.join(os.tmpdir(), "aims-findings-"));
   const outfile = path.join(folder, "page.mjs");
   const { build } = createRequire(path.join(modules, "any.js"))("esbuild");
-  const sources = ["findings", "run/errors", "run/findings_of", "run/layers", "run/plan", "run/state_url", "run/camera3d"];
+  const sources = ["findings", "run/errors", "run/findings_of", "run/layers", "run/plan", "run/series", "run/state_url", "run/camera3d"];
   await build({
     stdin: {
       contents: sources.map((name) => `export * from "./src/${name}";`).join("\n"),
@@ -74,6 +74,30 @@ test("a loss begins where the error stays", () => {
   assert.ok(Math.abs(loss.most - 24) < 1e-3);
   const back = walk({ a: (x) => [x, x > 40 && x < 50 ? 3 : 0] });
   assert.equal(page.lossOf(page.errorTrack(page.truePath(back), back.estimators[0], "start")), null);
+});
+
+test("a gap breaks the curve, is named as such, and is no loss", () => {
+  const data = walk({ a: (x) => [x > 40 && x < 52 ? NaN : x, 0] });
+  data.scores.estimators.a = { ...data.scores.estimators.a, success: false, diverged_reason: "gap" };
+  const track = page.errorTrack(page.truePath(data), data.estimators[0], "start");
+  assert.ok(Number.isNaN(track.error[45]) && track.error[60] < 1e-6);
+  assert.ok(page.thin(track, 3).some((i) => Number.isNaN(track.error[i])));
+  assert.equal(page.lossOf(track), null);
+  assert.equal(page.missingText(data, "a"), "has no poses for 12 s, from 40 s on");
+  const { list, route } = page.findingsOf(data);
+  assert.match(page.finding(list, route), /a has no poses for 12 s, from 40 s on\.$/);
+  data.scores.estimators.a.diverged_reason = "error_limit";
+  assert.equal(page.missingText(data, "a"), null);
+});
+
+test("a break reaches over the stamps of other curves", () => {
+  const [t, a, b] = page.align([
+    { times: Float32Array.of(0, 1, 5, 9, 10), values: Float32Array.of(1, 1, NaN, 2, 2) },
+    { times: Float32Array.of(0.5, 3, 7), values: Float32Array.of(4, 4, 4) },
+  ]);
+  assert.deepEqual([...t], [0, 0.5, 1, 3, 5, 7, 9, 10]);
+  assert.deepEqual(a, [1, undefined, 1, null, null, null, 2, 2]);
+  assert.deepEqual(b, [undefined, 4, undefined, 4, undefined, 4, undefined, undefined]);
 });
 
 test("the sentence names who keeps the length, who loses it where, and who does not notice", () => {

@@ -250,6 +250,18 @@ test("one scenario over its seeds leads with a sentence, its table and box plots
   assert.deepEqual(troubles, []);
 });
 
+test("an estimator that failed on every seed has a row and is counted apart", { skip }, async () => {
+  const data = suite();
+  const only = data.suite.scenarios.find((each) => each.name === "severity_3");
+  const failures = only.seeds.map((seed) => ({ scenario: "severity_3", seed, estimator: "broken", message: "no such file" }));
+  Object.assign(data.suite, { scenarios: [only], families: [], failures });
+  data.runs = data.runs.filter((run) => run.scenario === "severity_3");
+  const { page, troubles } = await pages.show(data);
+  assert.match(await page.locator('#seeds tr[data-row="broken"]').innerText(), /failed on 3 of 3 seeds/);
+  assert.match(await page.locator("body").innerText(), /estimators\s+2, and 1 that failed on every run/);
+  assert.deepEqual(troubles, []);
+});
+
 test("successes have their interval, pairs of estimators a sign test over seeds", { skip }, async () => {
   const { page, troubles } = await pages.show(suite());
   await page.locator("#seeds").getByLabel("Scenario").selectOption("severity_3");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** Position errors over the distance travelled, and where an estimate is lost. */
 import type { Estimator, Numbers, RunPayload } from "../contract";
+import { at } from "../dom";
 import { isNumber } from "../format";
 import { nearestIndex } from "./store";
 
@@ -49,7 +50,7 @@ function truthAt(path: Path, seconds: number): [number, number, number] | null {
   return [at(0), at(1), at(2)];
 }
 
-/** An estimate compared with the truth, a sample per pose. */
+/** An estimate compared with the truth, a sample per pose; in a gap one without numbers but its stamp and distance. */
 export interface ErrorTrack {
   t: number[];
   /** Distance that the truth has travelled [m]. */
@@ -80,19 +81,19 @@ function fittedTurn(pairs: { t: number; e: number[]; q: number[] }[], until: num
 export function errorTrack(path: Path, estimator: Estimator, alignment: Alignment): ErrorTrack | null {
   const { t, p } = estimator.series ?? {};
   if (!t || !p) return null;
-  const pairs: { t: number; e: number[]; q: number[] }[] = [];
+  const samples: { t: number; e: number[]; q: number[] }[] = [];
   for (let i = 0; i < t.length; ++i) {
     const q = truthAt(path, t[i]!);
-    const e = [p[3 * i]!, p[3 * i + 1]!, p[3 * i + 2]!];
-    if (q && e.every(Number.isFinite) && q.every(Number.isFinite)) pairs.push({ t: t[i]!, e, q });
+    if (q && q.every(Number.isFinite)) samples.push({ t: t[i]!, e: [p[3 * i]!, p[3 * i + 1]!, p[3 * i + 2]!], q });
   }
+  const pairs = samples.filter(({ e }) => e.every(Number.isFinite));
   if (pairs.length === 0) return null;
   const until = isNumber(estimator.diverged_at) ? estimator.diverged_at : Infinity;
   const turn = alignment === "heading" ? fittedTurn(pairs, until) : 0;
   const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
   const start = pairs[0]!.e;
   const track: ErrorTrack = { t: [], distance: [], error: [], p: [], turn };
-  for (const { t: at, e, q } of pairs) {
+  for (const { t: at, e, q } of samples) {
     const [dx, dy] = [e[0]! - start[0]!, e[1]! - start[1]!];
     const laid = [start[0]! + cos * dx - sin * dy, start[1]! + sin * dx + cos * dy, e[2]!];
     track.t.push(at);
@@ -110,13 +111,12 @@ export function ownTrack(estimator: Estimator): ErrorTrack | null {
   const track: ErrorTrack = { t: [], distance: [], error: [], p: [], turn: 0 };
   for (let i = 0; i < t.length; ++i) {
     const at = [p[3 * i]!, p[3 * i + 1]!, p[3 * i + 2]!];
-    if (!at.every(Number.isFinite)) continue;
     track.t.push(t[i]!);
     track.distance.push(NaN);
-    track.error.push(0);
+    track.error.push(at.every(Number.isFinite) ? 0 : NaN);
     track.p.push(...at);
   }
-  return track.t.length > 0 ? track : null;
+  return track.error.some(Number.isFinite) ? track : null;
 }
 
 /** Where an estimate leaves the truth for good. */
@@ -135,23 +135,46 @@ const kLostPart = 0.01;
 
 /** The last instant at which the estimate was still near the truth; null if it is near at the end. */
 export function lossOf(track: ErrorTrack): Loss | null {
-  const n = track.t.length;
+  const known = track.t.map((_, i) => i).filter((i) => Number.isFinite(track.error[i]!));
   const near = (i: number) => track.error[i]! <= Math.max(kLost, kLostPart * track.distance[i]!);
-  let last = n - 1;
-  while (last >= 0 && !near(last)) --last;
-  if (last === n - 1) return null;
-  const from = Math.max(last, 0);
-  let most = 0;
-  for (let i = from; i < n; ++i) most = Math.max(most, track.error[i]!);
-  return { from: track.t[from]!, distance: track.distance[from]!, most };
+  let last = known.length - 1;
+  while (last >= 0 && !near(known[last]!)) --last;
+  if (last === known.length - 1) return null;
+  const from = known[Math.max(last, 0)]!;
+  return { from: track.t[from]!, distance: track.distance[from]!, most: mostOf(track, from) };
 }
 
-/** At most `count` samples of a track, evenly, with the last one. */
+/** The largest error from a sample on [m]. */
+export function mostOf(track: ErrorTrack, from = 0): number {
+  return track.error.reduce((most, error, i) => (i >= from && error > most ? error : most), 0);
+}
+
+/** What is missing of an estimate that fails by that, e.g. "has no poses for 12 s, from 34 s on"; null: nothing. */
+export function missingText(data: RunPayload, name: string): string | null {
+  const estimator = data.estimators.find((item) => item.name === name);
+  const { t, p } = estimator?.series ?? {};
+  const truth = data.truth?.t;
+  const reason = at(data.scores, "estimators", name, "diverged_reason");
+  if (!t || !p || !truth || truth.length === 0) return null;
+  const stamps = [...t].filter((_, i) => Number.isFinite(p[3 * i]!));
+  if (stamps.length === 0) return null;
+  if (reason === "starts_late") return `has no poses for the first ${(stamps[0]! - truth[0]!).toFixed(0)} s`;
+  if (reason === "ends_early") return `has no poses for the last ${(truth[truth.length - 1]! - stamps[stamps.length - 1]!).toFixed(0)} s`;
+  if (reason !== "gap") return null;
+  let [longest, from] = [0, 0];
+  for (let i = 1; i < stamps.length; ++i) {
+    const step = stamps[i]! - stamps[i - 1]!;
+    if (step > longest) [longest, from] = [step, stamps[i - 1]!];
+  }
+  return `has no poses for ${longest.toFixed(0)} s, from ${from.toFixed(0)} s on`;
+}
+
+/** At most `count` samples of a track, evenly, with the last one, and those of gaps. */
 export function thin(track: ErrorTrack, count: number): number[] {
   const n = track.t.length;
   const step = Math.max(1, Math.ceil(n / count));
   const kept: number[] = [];
-  for (let i = 0; i < n; i += step) kept.push(i);
+  for (let i = 0; i < n; ++i) if (i % step === 0 || Number.isNaN(track.error[i]!)) kept.push(i);
   if (kept[kept.length - 1] !== n - 1) kept.push(n - 1);
   return kept;
 }

@@ -4,7 +4,7 @@ import type { RunPayload } from "../contract";
 import { at, own } from "../dom";
 import type { Finding, Route } from "../findings";
 import { isNumber } from "../format";
-import { errorTrack, lossOf, truePath, type Path } from "./errors";
+import { errorTrack, lossOf, missingText, truePath, type Path } from "./errors";
 
 /** A loss that begins within this part of the route is there throughout. */
 const kEarly = 0.15;
@@ -56,6 +56,7 @@ function findingOf(data: RunPayload, path: Path | null, name: string, scores: un
     loss: loss ? { from: loss.from, distance: loss.distance, most: loss.most, early: loss.distance < kEarly * length } : null,
     aside: asideOf(scores),
     returns: loss ? returnsAfter(data, loss.from) : null,
+    missing: missingText(data, name),
     healthy: at(scores, "health", "worst") === "healthy",
   };
 }

@@ -5,7 +5,7 @@ import type { RunPayload, TimeInterval } from "../contract";
 import { h } from "../dom";
 import { isNumber } from "../format";
 import { color, onTheme, seriesColor } from "../theme";
-import { errorTrack, ownTrack, thin, truePath, type Alignment, type ErrorTrack, type Path } from "./errors";
+import { errorTrack, mostOf, ownTrack, thin, truePath, type Alignment, type ErrorTrack, type Path } from "./errors";
 import { layered } from "./layers";
 import { Panel, type PanelSpec } from "./panel";
 import type { Backdrop } from "./panel_paint";
@@ -67,8 +67,8 @@ function shownTracks(data: RunPayload, path: Path | null, store: Store): Shown[]
 
 /** Errors of all, thinned. */
 function errorSpec(shown: Shown[]): PanelSpec {
-  const most = Math.max(0.1, ...shown.map(({ track }) => track.error.reduce((a, b) => Math.max(a, b), 0)));
-  const errors = shown.flatMap(({ track }) => track.error).sort((a, b) => a - b);
+  const most = Math.max(0.1, ...shown.map(({ track }) => mostOf(track)));
+  const errors = shown.flatMap(({ track }) => track.error.filter(Number.isFinite)).sort((a, b) => a - b);
   const least = Math.min(kLeast[1], Math.max(kLeast[0], errors[Math.floor(0.05 * errors.length)] ?? 0));
   const curves = layered(shown).map(({ item, width }) => {
     const { name, index, track } = item;

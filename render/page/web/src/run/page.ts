@@ -8,6 +8,7 @@ import { formatFixed, isNumber } from "../format";
 import { pictureGrid } from "../pictures";
 import { onTheme, themeButton } from "../theme";
 import { configSection } from "./config";
+import { missingText } from "./errors";
 import { overviewCharts, visibility } from "./overview";
 import { detailSection, leadSection } from "./results";
 import { cursorTimes, timeSpan } from "./series";
@@ -63,7 +64,7 @@ function chooser(data: RunPayload, store: Store): HTMLElement | null {
       lineSample(item.colour_index),
       h("bdi", {}, item.name),
       isNumber(item.diverged_at)
-        ? h("span", { class: "diverged" }, ` diverged at ${formatFixed(item.diverged_at, 0)} s`)
+        ? h("span", { class: "diverged" }, ` ${missingText(data, item.name) ?? `diverged at ${formatFixed(item.diverged_at, 0)} s`}`)
         : null,
     );
   });

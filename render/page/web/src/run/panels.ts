@@ -6,6 +6,7 @@ import { seriesDash } from "../palette";
 import { color, seriesColor } from "../theme";
 import type { Curve, PanelSpec } from "./panel";
 import type { Backdrop, Mark } from "./panel_paint";
+import { missingText } from "./errors";
 import { column, track } from "./series";
 import type { Level, State } from "./store";
 
@@ -211,6 +212,6 @@ export function backdrop(data: RunPayload, state: Readonly<State>): Backdrop {
     .filter((waypoint_time) => isNumber(waypoint_time.t))
     .map((waypoint_time) => ({ t: waypoint_time.t!, text: waypoint_time.name, color: color("--ink-soft") }));
   const divergedAt = data.estimators[state.chosen]?.diverged_at;
-  if (isNumber(divergedAt)) marks.push({ t: divergedAt, text: "diverged", color: color("--bad") });
+  if (isNumber(divergedAt)) marks.push({ t: divergedAt, text: missingText(data, data.estimators[state.chosen]!.name) ? "no poses" : "diverged", color: color("--bad") });
   return { shaded, marks };
 }

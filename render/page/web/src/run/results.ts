@@ -127,7 +127,9 @@ function outcome(data: RunPayload, row: Row): string {
   if (row.scores === undefined) return kNone;
   if (data.scenario.robot?.valid === false) return "invalid run";
   const divergedAt = at(row.scores, "diverged_at_s");
-  if (isNumber(divergedAt)) return `✕ at ${formatFixed(divergedAt - (data.t0_s ?? 0), 0)} s`;
+  const reason = at(row.scores, "diverged_reason");
+  const what = reason === "gap" ? "gap " : reason === "ends_early" ? "ends " : reason === "starts_late" ? "starts late, " : "";
+  if (isNumber(divergedAt)) return `✕ ${what}at ${formatFixed(divergedAt - (data.t0_s ?? 0), 0)} s`;
   if (at(row.scores, "diverged_reason") === "no_poses") return "no poses";
   return success(row) ? "yes" : "no";
 }

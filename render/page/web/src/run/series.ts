@@ -72,6 +72,16 @@ export type Aligned = [number[], ...(number | null | undefined)[][]];
 /** Float32 of stamps a millisecond apart or less are the same instant. */
 const key = (seconds: number) => Math.round(seconds * 1000);
 
+/** A sample without a value breaks a curve from the value before it to the next, also at the stamps of other curves between them. */
+function widenBreaks(column: (number | null | undefined)[]): void {
+  let from = 0;
+  for (let i = 0; i <= column.length; ++i) {
+    if (i < column.length && !isNumber(column[i])) continue;
+    if (column.slice(from, i).includes(null)) column.fill(null, from, i);
+    from = i + 1;
+  }
+}
+
 /** Tracks on the union of their stamps: undefined without a sample, null without a value. */
 export function align(tracks: Track[], positiveOnly = false): Aligned {
   const stamps = new Set<number>();
@@ -89,6 +99,7 @@ export function align(tracks: Track[], positiveOnly = false): Aligned {
       if (index !== undefined)
         out[index] = Number.isFinite(value) && !(positiveOnly && value <= 0) ? value : null;
     }
+    widenBreaks(out);
     return out;
   });
   return [keys.map((value) => value / 1000), ...columns];

@@ -4,6 +4,7 @@ import type { Failure, RunPayload } from "../contract";
 import { at, h, own } from "../dom";
 import { finding } from "../findings";
 import { firstLine, formatFixed, formatNumber, isNumber } from "../format";
+import { missingText } from "./errors";
 import { findingsOf } from "./findings_of";
 
 export type Mood = "good" | "bad" | "plain";
@@ -84,6 +85,8 @@ function successSentence(data: RunPayload): Sentence | null {
   const reasons = failed.map(([name, own]) => {
     const divergedAt = at(own, "diverged_at_s");
     if (at(own, "diverged_reason") === "no_poses") return `${name} returned no pose`;
+    const missing = missingText(data, name);
+    if (missing) return `${name} ${missing}`;
     return isNumber(divergedAt) ? `${name} diverged ${formatFixed(divergedAt - start, 0)} s after the start` : `${name} failed`;
   });
   return {

@@ -5,7 +5,7 @@ import { choice } from "../charts/controls";
 import { lineSample } from "../charts/svg";
 import { at, h, own, section } from "../dom";
 import { finding, type Finding } from "../findings";
-import { formatNumber, isNumber } from "../format";
+import { formatNumber, isNumber, kNone } from "../format";
 import { sortableTable, type Column } from "../table";
 import {
   estimatorsOf, firstScore, runsOf, styleOf, summaryOf, titleOf,
@@ -15,6 +15,9 @@ import {
 interface Row {
   name: string;
   summary: EstimatorSummary;
+  /** Seeds on which it failed, of all. */
+  failed: number;
+  seeds: number;
 }
 
 /** Median and worst; marked where no run succeeded, since such a median says nothing. */
@@ -35,13 +38,20 @@ function scoreColumn(score: Headline): Column<Row> {
   };
 }
 
-function successText({ successes, runs, success_low: low, success_high: high }: EstimatorSummary): string {
+function successText(row: Row): string {
+  const { successes, runs, success_low: low, success_high: high } = row.summary;
+  if (runs === 0) return `failed on ${row.failed} of ${row.seeds} seeds`;
   const rate = isNumber(low) && isNumber(high) ? ` (${Math.round(100 * low)}–${Math.round(100 * high)} %)` : "";
-  return `${successes} of ${runs}${rate}`;
+  return `${successes} of ${runs}${rate}${row.failed > 0 ? `, failed on ${row.failed} of ${row.seeds} seeds` : ""}`;
 }
 
 function table(data: SuitePayload, scenario: SuiteScenario): HTMLElement {
-  const rows = Object.keys(scenario.estimators).map((name): Row => ({ name, summary: summaryOf(scenario, name)! }));
+  const failures = (data.suite.failures ?? []).filter((each) => each.scenario === scenario.name && each.estimator);
+  const names = new Set([...Object.keys(scenario.estimators), ...failures.map((each) => each.estimator!)]);
+  const rows = [...names].map((name): Row => ({
+    name, summary: summaryOf(scenario, name) ?? { runs: 0, successes: 0, success_rate: null, scores: {} },
+    failed: failures.filter((each) => each.estimator === name).length, seeds: scenario.seeds.length,
+  }));
   const columns: Column<Row>[] = [
     {
       title: "estimator", value: (row) => row.name,
@@ -50,11 +60,11 @@ function table(data: SuitePayload, scenario: SuiteScenario): HTMLElement {
     ...data.headline.map(scoreColumn),
     {
       title: "within 5 %", value: (row) => row.summary.successes,
-      hint: "95 % interval of the rate (Wilson)", show: (row) => successText(row.summary),
+      hint: "95 % interval of the rate (Wilson)", show: successText,
     },
     {
       title: "within 1 %", value: (row) => row.summary.successes_1_percent,
-      show: (row) => `${row.summary.successes_1_percent ?? "–"} of ${row.summary.runs}`,
+      show: (row) => (row.summary.runs === 0 ? kNone : `${row.summary.successes_1_percent ?? "–"} of ${row.summary.runs}`),
     },
   ];
   return sortableTable(rows, columns.filter((column, i) => i === 0 || rows.some((row) => column.value(row) !== null)), {

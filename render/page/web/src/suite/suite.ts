@@ -64,6 +64,13 @@ function failureBanner(data: SuitePayload): HTMLElement | null {
     h("a", { href: "#failures" }, "Failed to run"));
 }
 
+/** How many there are, and how many more failed on every run. */
+function estimatorText(data: SuitePayload): string {
+  const names = estimatorsOf(data);
+  const failed = new Set((data.suite.failures ?? []).map((each) => each.estimator ?? "").filter((each) => each && !names.includes(each)));
+  return failed.size === 0 ? `${names.length}` : `${names.length}, and ${failed.size} that failed on every run`;
+}
+
 /** What was set on top of the scenarios; null for nothing. */
 function settingsLine(data: SuitePayload): HTMLElement | null {
   const settings = data.suite.settings ?? [];
@@ -93,7 +100,7 @@ export function renderSuite(root: HTMLElement, data: SuitePayload): void {
   root.append(
     h("header", { class: "page-head" }, h("h1", {}, data.title), themeButton()),
     facts([
-      ["scenarios", data.suite.scenarios.length], ["estimators", estimatorsOf(data).length], ["runs", runs],
+      ["scenarios", data.suite.scenarios.length], ["estimators", estimatorText(data)], ["runs", runs],
       ["", data.suite.complete === false ? "unfinished: runs are missing" : null],
       ["aims", data.version], ["code", data.suite.code],
     ]),

@@ -58,7 +58,7 @@ function curveSection(data: TuningPayload, view: View, redraw: () => void): HTML
       redraw();
     })), curves(data, view.estimator, analysis, view.score, shown),
     h("p", { class: "soft" }, shown === "cloud" ? "Median over the seeds of a scenario; ✕: a run diverged."
-      : shown === "points" ? "All other parameters differ, too."
+      : shown === "points" ? (view.estimator.parameters.length > 1 ? "All other parameters differ, too." : "")
       : "Markers: measured, with 95 % intervals over seeds. Thin lines: fits with the interval of their error, where cross-validation supports them. A press on a name shows or hides it."));
 }
 
