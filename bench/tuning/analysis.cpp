@@ -99,8 +99,7 @@ Result<BestPoint> best_point(const ResponseTable& table, const Objective& object
   if (all_diverged(table)) {
     return failure(
         "every run diverged or failed and counts the divergence penalty or more, so that no point "
-        "is "
-        "better than another");
+        "is better than another");
   }
   const auto all = cases_of(table, "");
   const auto point = least_point(table, objective, all);
