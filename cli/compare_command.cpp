@@ -37,6 +37,8 @@ std::optional<std::size_t> too_few_seeds(const Comparison& comparison) {
 void print_comparison(const Comparison& comparison) {
   print_out("{}\n{}\n{}\n{}", to_text(change_table(comparison)), rule_text(comparison),
             summary_text(comparison), settings_text(comparison));
+  for (const std::string& run : comparison.fails_now) print_out("FAILS NOW: {}\n", run);
+  for (const std::string& run : comparison.fails_no_more) print_out("fails no more: {}\n", run);
   for (const std::string& run : comparison.only_before) print_out("only before: {}\n", run);
   for (const std::string& run : comparison.only_after) print_out("only after: {}\n", run);
   for (const std::string& run : comparison.invalid) print_out("INVALID RUN left out: {}\n", run);
@@ -61,7 +63,7 @@ int compare_command(const CompareArguments& arguments) {
     if (!written) return bad_input(kCompareName, written.error());
   }
   if (!arguments.fail_on_worse) return kOk;
-  if (count(comparison, ChangeVerdict::kWorse) > 0) return kExpectationFailed;
+  if (count(comparison, ChangeVerdict::kWorse) > 0 || !comparison.fails_now.empty()) return kExpectationFailed;
   if (const auto seeds = too_few_seeds(comparison)) {
     return bad_input(kCompareName,
                      Error{fmt::format("--fail-on-worse: expected at least {} common seeds, "
@@ -79,8 +81,8 @@ void declare_compare(Command command) {
   command.argument("after", arguments->after, "Folder of aims run or aims suite");
   add_out(command, arguments->shared, "nowhere: the result is only printed");
   command.flag("--fail-on-worse", arguments->fail_on_worse,
-               "Exit with 1 when a score got significantly worse, with 2\n"
-               "when there are too few common seeds");
+               "Exit with 1 when a score got significantly worse or an estimator\n"
+               "fails that did not, with 2 when results differ on too few seeds");
   add_json(command, arguments->json);
   command.footer(
       "Runs are paired by scenario, seed and estimator.\n"

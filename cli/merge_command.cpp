@@ -75,7 +75,7 @@ void declare_merge(Command command, const fs::path& /*scenarios*/) {
   add_out(command, arguments->shared, "the first folder");
   command.option("--score", arguments->objective.score,
                  "Key of scores.json that sweep.md analyses (ate_yaw_m)");
-  command.option("--divergence-penalty", arguments->objective.divergence_penalty, {1e-9, 1e9},
+  command.option("--divergence-penalty", arguments->objective.divergence_penalty, {0.0, 1e9},
                  "Value of a diverged run in the objective, of which the fraction of\n"
                  "diverged runs is added too (10)");
   command.footer(

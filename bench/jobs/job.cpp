@@ -13,7 +13,7 @@ namespace aims {
 namespace {
 
 constexpr std::array kOutcomes = {JobOutcome::kDone, JobOutcome::kFailed, JobOutcome::kCrashed,
-                                  JobOutcome::kTimedOut};
+                                  JobOutcome::kTimedOut, JobOutcome::kNotSimulated};
 
 }  // namespace
 
@@ -46,6 +46,8 @@ std::string_view name_of(JobOutcome outcome) {
       return "crashed";
     case JobOutcome::kTimedOut:
       return "timed_out";
+    case JobOutcome::kNotSimulated:
+      return "not_simulated";
   }
   return "";
 }

@@ -48,9 +48,10 @@ std::string text_of(const Job& job);
 /// How a job ended.
 enum class JobOutcome {
   kDone,
-  kFailed,    ///< could not be done, e.g. the sequence cannot be simulated
+  kFailed,    ///< the estimator ended with an error
   kCrashed,   ///< its process was ended by a signal, or by itself
   kTimedOut,  ///< it was stopped after the time that a job is given
+  kNotSimulated,  ///< its sequence cannot be simulated, which is no failure of the estimator
 };
 
 std::string_view name_of(JobOutcome outcome);

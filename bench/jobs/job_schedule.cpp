@@ -193,7 +193,7 @@ Result<void> JobSchedule::take_sequence(SequenceWork& sequence, const EndedProce
   const std::string why = crashed ? ended.text : reply["refusal"].get<std::string>();
   while (sequence.next < sequence.jobs.size()) {
     ++steps_done_;
-    auto stored = fail(*sequence.jobs[sequence.next++], JobOutcome::kFailed,
+    auto stored = fail(*sequence.jobs[sequence.next++], JobOutcome::kNotSimulated,
                        "the sequence could not be simulated: " + why);
     if (!stored) return stored;
   }

@@ -47,7 +47,7 @@ Result<StoredResults> read_store(const JobStore& store) {
   StoredResults results;
   for (const auto& [key, run] : runs) {
     RunRecord record = record_of(key.first, key.second, run.results, run.complete);
-    if (!record.scores["estimators"].empty()) results[key.first].push_back(std::move(record));
+    if (has_outcome(record)) results[key.first].push_back(std::move(record));
   }
   return results;
 }
@@ -64,6 +64,7 @@ RunRecord record_of(const std::string& scenario, std::uint64_t seed,
   Json estimators = Json::object();
   Json times = Json::object();
   for (const auto& [label, result] : results) {
+    if (result.outcome == JobOutcome::kNotSimulated) continue;
     if (result.outcome != JobOutcome::kDone) {
       record.scores["failures"].push_back({{"estimator", label}, {"message", result.message}});
       continue;

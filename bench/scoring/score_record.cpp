@@ -102,6 +102,18 @@ std::optional<double> number_at(const Json& json, std::string_view key) {
   return std::nullopt;
 }
 
+bool failed_in(const RunRecord& record, const std::string& estimator) {
+  const Json failures = value_in(record.scores, "failures", Json::array());
+  return std::ranges::any_of(failures, [&](const Json& each) {
+    return value_in(each, "estimator", "") == estimator;
+  });
+}
+
+bool has_outcome(const RunRecord& record) {
+  return !value_in(record.scores, "estimators", Json::object()).empty() ||
+         !value_in(record.scores, "failures", Json::array()).empty();
+}
+
 std::optional<double> find_score(const RunRecord& record, const std::string& estimator,
                                  const std::string& key) {
   return number_at(estimator_in(record, estimator), key);

@@ -47,6 +47,12 @@ const Json& estimator_in(const RunRecord& record, const std::string& estimator);
 void visit_leaves(const Json& json, const std::string& prefix,
                   const std::function<void(const std::string&, const Json&)>& visit);
 
+/// Whether the estimator failed on that sequence, by an error or a crash: it has no scores.
+bool failed_in(const RunRecord& record, const std::string& estimator);
+
+/// Whether an estimator has scores or failed; otherwise the record says nothing of estimators.
+bool has_outcome(const RunRecord& record);
+
 /// One number of an estimator in a record, by dotted key ("m_list_percent.a-b"); empty when it has
 /// no value (a segment that was not reached, an estimator that diverged) or does not exist.
 std::optional<double> find_score(const RunRecord& record, const std::string& estimator,

@@ -102,6 +102,7 @@ SuccessRate success_rate(std::span<const RunRecord> runs, const std::string& est
 std::optional<bool> succeeds(const RunRecord& run, const std::string& estimator,
                              const std::string& key) {
   if (!is_valid_run(run)) return std::nullopt;
+  if (failed_in(run, estimator)) return false;
   const auto value = find_score(run, estimator, key);
   return value ? std::optional(*value == 1.0) : std::nullopt;
 }
@@ -123,6 +124,22 @@ SuccessTest SuccessDifferences::test() const {
   test.by_seed = mcnemar_test(count([](int surplus) { return surplus > 0; }),
                               count([](int surplus) { return surplus < 0; }));
   return test;
+}
+
+ScorePairs paired_successes(const EstimatorRuns& reference, const EstimatorRuns& other,
+                            const std::string& key) {
+  ScorePairs pairs;
+  for (const RunRecord& a : reference.runs) {
+    for (const RunRecord& b : other.runs) {
+      if (a.seed != b.seed) continue;
+      const auto one = succeeds(a, reference.estimator, key);
+      const auto two = succeeds(b, other.estimator, key);
+      if (!one || !two) continue;
+      pairs.reference.push_back(*one ? 1.0 : 0.0);
+      pairs.value.push_back(*two ? 1.0 : 0.0);
+    }
+  }
+  return pairs;
 }
 
 McNemarTest success_test(const EstimatorRuns& first, const EstimatorRuns& second,

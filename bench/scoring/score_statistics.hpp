@@ -55,12 +55,13 @@ struct SuccessRate {
   std::string text() const;
 };
 
-/// Over the valid runs that have the key: older results have none of 1 %.
+/// Over the valid runs that have the key, and those on which the estimator failed: older results
+/// have none of 1 %.
 SuccessRate success_rate(std::span<const RunRecord> runs, const std::string& estimator,
                          const std::string& key = kSuccessKey);
 
-/// Whether the estimator has a success by that key in that run; none when it has no such key, or
-/// when the run is invalid.
+/// Whether the estimator has a success by that key in that run: none where it failed. Without a
+/// value when it has no such key, or when the run is invalid.
 std::optional<bool> succeeds(const RunRecord& run, const std::string& estimator,
                              const std::string& key = kSuccessKey);
 
@@ -80,6 +81,10 @@ struct EstimatorRuns {
 
 ScorePairs paired(const EstimatorRuns& reference, const EstimatorRuns& other,
                   const std::string& key);
+
+/// Likewise of successes, 1 or 0, with those that failed.
+ScorePairs paired_successes(const EstimatorRuns& reference, const EstimatorRuns& other,
+                            const std::string& key);
 
 /// Where two estimators differ in success.
 struct SuccessTest {

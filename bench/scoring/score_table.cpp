@@ -71,11 +71,8 @@ std::vector<Column> columns_of(const RunRecord& run, bool several) {
 
 /// Runs on which the estimator failed.
 std::size_t failed_runs(std::span<const RunRecord> runs, const std::string& estimator) {
-  return static_cast<std::size_t>(std::ranges::count_if(runs, [&](const RunRecord& run) {
-    return std::ranges::any_of(
-        value_in(run.scores, "failures", Json::array()),
-        [&](const Json& each) { return value_in(each, "estimator", "") == estimator; });
-  }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      runs, [&](const RunRecord& run) { return failed_in(run, estimator); }));
 }
 
 /// The estimators of any run, then those that failed on all.
@@ -111,6 +108,11 @@ ScoreStatistics statistics_in(std::span<const RunRecord> runs, const Row& row,
   return statistics_of(runs, row.estimator, row.prefix + key);
 }
 
+/// Whether its scores are of the same runs as those of others: none of one that failed on some.
+bool is_comparable(std::span<const RunRecord> runs, const Row& row) {
+  return failed_runs(runs, row.estimator) == 0;
+}
+
 bool has_success(std::span<const RunRecord> runs, const Row& row) {
   return successes(runs, row.estimator, row.prefix + kSuccessKey) > 0;
 }
@@ -123,7 +125,7 @@ std::optional<double> best_in(std::span<const RunRecord> runs, const std::vector
   std::optional<double> best;
   for (const Row& row : rows) {
     const auto median = statistics_in(runs, row, column.key).median;
-    if (!median || !has_success(runs, row)) continue;
+    if (!median || !has_success(runs, row) || !is_comparable(runs, row)) continue;
     if (!best || (larger ? *median > *best : *median < *best)) best = median;
   }
   return best;
@@ -151,7 +153,7 @@ std::string cell(std::span<const RunRecord> runs, const Row& row, const Column& 
   const bool success = has_success(runs, row);
   std::string text = fixed(*summary.median, column.score.digits);
   if (runs.size() > 1) text += fmt::format(" ({})", fixed(*summary.worst, column.score.digits));
-  if (success && best && *summary.median == *best) text += "*";
+  if (success && best && *summary.median == *best && is_comparable(runs, row)) text += "*";
   const bool timing = is_timing(column.key);
   if (runs.size() > 1 && !success && !timing) text += " x";
   if (runs.size() == 1 && column.key == kSe3Key) text += spread_mark(runs.front(), row);
@@ -202,7 +204,9 @@ TextTable score_table(std::span<const RunRecord> runs) {
   TextTable table;
   if (runs.empty()) return table;
   // A route that was not finished may lack segments.
-  const auto valid = std::ranges::find_if(runs, is_valid_run);
+  const auto valid = std::ranges::find_if(runs, [](const RunRecord& run) {
+    return is_valid_run(run) && !run.scores.at("estimators").empty();
+  });
   const std::vector<Row> rows = rows_of(runs);
   std::vector<Column> columns =
       columns_of(valid == runs.end() ? runs.front() : *valid, runs.size() > 1);
@@ -250,7 +254,7 @@ std::string score_legend(std::span<const RunRecord> runs, const ScoreConfig& sco
         "runs, with the 95 % interval of the rate.\n";
   }
   if (!runs.empty() && runs.front().scores.at("estimators").size() > 1) {
-    text += "A star: best of those that succeeded.\n";
+    text += "A star: best of those that succeeded and failed on none of the runs.\n";
   }
   return text;
 }

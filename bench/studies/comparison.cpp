@@ -76,12 +76,18 @@ ScoreChange success_change_of(const ScorePairs& pairs, const Score& score) {
 /// Seeds by "scenario, estimator".
 using SeedsByName = std::map<std::string, std::set<std::uint64_t>>;
 
-SeedsByName seeds_of(const StoredResults& results) {
+/// Those with an outcome; `failed`: those on which the estimator failed alone.
+SeedsByName seeds_of(const StoredResults& results, bool failed = false) {
   SeedsByName seeds;
   for (const auto& [scenario, runs] : results) {
     for (const RunRecord& run : runs) {
-      for (const auto& [estimator, unused] : run.scores["estimators"].items()) {
-        seeds[scenario + ", " + estimator].insert(run.seed);
+      if (!failed) {
+        for (const auto& [estimator, unused] : run.scores["estimators"].items()) {
+          seeds[scenario + ", " + estimator].insert(run.seed);
+        }
+      }
+      for (const Json& each : value_in(run.scores, "failures", Json::array())) {
+        seeds[scenario + ", " + value_in(each, "estimator", "")].insert(run.seed);
       }
     }
   }
@@ -103,6 +109,17 @@ std::vector<std::string> without(const SeedsByName& ours, const SeedsByName& oth
   return rest;
 }
 
+/// What both have.
+SeedsByName common(SeedsByName ours, const SeedsByName& others) {
+  for (auto& [name, seeds] : ours) {
+    const auto other = others.find(name);
+    std::erase_if(seeds, [&](std::uint64_t seed) {
+      return other == others.end() || !other->second.contains(seed);
+    });
+  }
+  return ours;
+}
+
 /// Adds the changes of one scenario.
 void compare_runs(const std::string& scenario, const std::vector<RunRecord>& before,
                   const std::vector<RunRecord>& after, Comparison& comparison) {
@@ -111,8 +128,9 @@ void compare_runs(const std::string& scenario, const std::vector<RunRecord>& bef
     for (const auto& [name, unused] : run.scores["estimators"].items()) estimators.insert(name);
   }
   for (const std::string& estimator : estimators) {
-    const auto add = [&](const auto& score, const auto& changed) {
-      const ScorePairs pairs = paired({before, estimator}, {after, estimator}, score.key);
+    const auto add = [&](const auto& score, const auto& pair, const auto& changed) {
+      const ScorePairs pairs =
+          pair(EstimatorRuns{before, estimator}, EstimatorRuns{after, estimator}, score.key);
       if (pairs.value.empty()) return;
       ScoreChange change = changed(pairs, score);
       change.scenario = scenario;
@@ -120,8 +138,8 @@ void compare_runs(const std::string& scenario, const std::vector<RunRecord>& bef
       comparison.expected_false_alarms += change.false_alarm;
       comparison.changes.push_back(std::move(change));
     };
-    for (const Score& score : headline_scores()) add(score, change_of);
-    for (const Score& score : success_scores()) add(score, success_change_of);
+    for (const Score& score : headline_scores()) add(score, paired, change_of);
+    for (const Score& score : success_scores()) add(score, paired_successes, success_change_of);
   }
 }
 
@@ -148,6 +166,10 @@ Comparison compare(const StoredResults& before, const StoredResults& after) {
   const SeedsByName seeds_after = seeds_of(after);
   comparison.only_before = without(seeds_before, seeds_after);
   comparison.only_after = without(seeds_after, seeds_before);
+  const SeedsByName failed_before = seeds_of(before, true);
+  const SeedsByName failed_after = seeds_of(after, true);
+  comparison.fails_now = without(common(failed_after, seeds_before), failed_before);
+  comparison.fails_no_more = without(common(failed_before, seeds_after), failed_after);
   return comparison;
 }
 

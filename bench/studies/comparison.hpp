@@ -49,6 +49,10 @@ struct Comparison {
   std::vector<std::string> set_after;
   std::vector<std::string> only_before;  ///< "scenario, estimator, seed 1,2"
   std::vector<std::string> only_after;
+  /// Likewise, where the estimator fails after and not before, and the reverse: such runs are lost
+  /// successes, and have no other scores.
+  std::vector<std::string> fails_now;
+  std::vector<std::string> fails_no_more;
   std::vector<std::string> invalid;    ///< runs left out: "before: corridor seed 3: the robot fell"
   double expected_false_alarms = 0.0;  ///< sum over the changes
 };

@@ -80,6 +80,8 @@ std::string comparison_markdown(const Comparison& comparison, const std::string&
       fmt::format("# {} against {}\n\n{}\n", after, before, summary_text(comparison));
   if (const std::string set = settings_text(comparison); !set.empty()) text += "\n" + set;
   text += fmt::format("\n{}\n{}", to_markdown(change_table(comparison)), rule_text(comparison));
+  text += list_markdown("Fails now", comparison.fails_now);
+  text += list_markdown("Fails no more", comparison.fails_no_more);
   text += list_markdown("Only before", comparison.only_before);
   text += list_markdown("Only after", comparison.only_after);
   return text + list_markdown("Invalid and left out", comparison.invalid);
@@ -118,6 +120,8 @@ Json comparison_json(const Comparison& comparison, const std::string& before,
           {"expected_false_alarms", comparison.expected_false_alarms},
           {"rule", rule_text(comparison)},
           {"changes", rows_json(change_columns(), comparison.changes)},
+          {"fails_now", comparison.fails_now},
+          {"fails_no_more", comparison.fails_no_more},
           {"only_before", comparison.only_before},
           {"only_after", comparison.only_after},
           {"invalid", comparison.invalid}};

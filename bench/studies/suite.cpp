@@ -87,7 +87,7 @@ void collect_suite(const JobStore& store, Suite& suite) {
       }
       ended = ended && whole;
       RunRecord record = record_of(each.scenario.name, seed, results, whole);
-      if (!record.scores["estimators"].empty()) each.runs.push_back(std::move(record));
+      if (has_outcome(record)) each.runs.push_back(std::move(record));
     }
     suite.complete = suite.complete && ended;
     if (ended) each.expectations = check_expectations(each.scenario, each.runs);

@@ -96,7 +96,7 @@ std::string text_of(const BestPoint& best, const ResponseTable& table) {
 }
 
 Result<BestPoint> best_point(const ResponseTable& table, const Objective& objective) {
-  if (all_diverged(table)) {
+  if (objective.divergence_penalty > 0.0 && all_diverged(table)) {
     return failure(
         "every run diverged or failed and counts the divergence penalty or more, so that no point "
         "is better than another");

@@ -98,6 +98,27 @@ std::optional<double> p_of(const Rows& rows, std::size_t seeds) {
   return as_large / (kDraws + 1.0);
 }
 
+/// The least p that rows with these values can have: of an effect that is alike on all seeds.
+std::optional<double> least_p(const Rows& rows, std::size_t seeds) {
+  Rows columns(seeds);
+  Rows aligned(rows.size());
+  for (std::size_t s = 0; s < seeds; ++s) {
+    for (const auto& row : rows) columns[s].push_back(row[s]);
+    std::ranges::sort(columns[s]);
+    for (std::size_t k = 0; k < rows.size(); ++k) aligned[k].push_back(columns[s][k]);
+  }
+  return p_of(aligned, seeds);
+}
+
+/// Cases on which every run diverged, so that all count the penalty.
+std::size_t saturated_cases(const ResponseTable& table, const std::vector<std::size_t>& cases) {
+  return static_cast<std::size_t>(std::ranges::count_if(cases, [&](std::size_t i) {
+    return std::ranges::all_of(table.runs, [i](const auto& runs) {
+      return i < runs.size() && runs[i].diverged;
+    });
+  }));
+}
+
 bool is_same(double a, double b) { return std::abs(a - b) <= kSameScore * std::abs(a); }
 
 bool is_same(const RunScore& a, const RunScore& b) {
@@ -197,6 +218,15 @@ bool is_small(const ResponseTable& table, const Objective& objective, const Effe
          smallest_change(objective.score, effect.least * scale);
 }
 
+/// What the objective cannot show.
+std::string saturated_text(const Effect& effect) {
+  if (effect.saturated == 0) return "";
+  return fmt::format(
+      " On {} of {} sequences the run diverged at every point and counts the penalty, not its "
+      "score: --divergence-penalty 0 counts the score.",
+      effect.saturated, effect.cases);
+}
+
 /// 0.43, 2.9, 143: never in powers of ten.
 std::string percent_text(double percent) {
   const int digits = percent < 0.995 ? 2 : percent < 9.95 ? 1 : 0;
@@ -223,11 +253,14 @@ Effect effect_of(const ResponseTable& table, const Objective& objective,
     effect.most = effect.points == 0 ? *value : std::max(effect.most, *value);
     ++effect.points;
   }
+  effect.cases = cases.size();
+  if (objective.divergence_penalty > 0.0) effect.saturated = saturated_cases(table, cases);
   if (effect.is_none()) return effect;
   effect.small = is_small(table, objective, effect);
   const SeedGroups seeds = cases_by_seed(table, cases);
   Rows rows = by_seed(table, objective, seeds);
   effect.p = p_of(rows, seeds.size());
+  effect.testable = least_p(rows, seeds.size()).value_or(0.0) <= kEffectLevel;
   if (!effect.is_resolved() || !effect.p || rows.size() < kFewestWithoutOne) return effect;
   rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(farthest_row(rows)));
   effect.of_one_point = p_of(rows, seeds.size()).value_or(0.0) > kEffectLevel;
@@ -237,27 +270,32 @@ Effect effect_of(const ResponseTable& table, const Objective& objective,
 std::string text_of(const Effect& effect) {
   if (effect.points < 2) return "Fewer than two points have an objective: no effect is known.";
   if (effect.is_none()) {
-    return fmt::format("The objective is {:.3g} at all {} points: no effect was measured.",
-                       effect.least, effect.points);
+    return fmt::format("The objective is {:.3g} at all {} points: no effect was measured.{}",
+                       effect.least, effect.points, saturated_text(effect));
   }
   std::string text = fmt::format("The objective lies between {:.4g} and {:.4g} at the {} points",
                                  effect.least, effect.most, effect.points);
   if (effect.least > 0.0) {
-    text += fmt::format(" ({})", percent_text(100.0 * (effect.most / effect.least - 1.0)));
+    text += fmt::format(" ({} of the least)",
+                        percent_text(100.0 * (effect.most / effect.least - 1.0)));
   }
   if (!effect.is_resolved()) {
-    text += effect.p ? ": not resolved, since seeds scatter as much"
+    text += !effect.testable ? ": not resolved: too few seeds and points for the test below"
+            : effect.p       ? ": not resolved, since seeds scatter as much"
                      : ": not resolved, since with one seed less than 5 % may be scatter";
   } else {
     text += effect.p ? ", beyond the scatter of seeds" : "; with one seed its scatter is unknown";
     if (effect.of_one_point) text += ", by a single point alone: without it, it is not resolved";
     if (effect.small) text += "; small, as comparisons call it (5 % or the score's floor)";
   }
-  if (!effect.p) return text + ".";
-  return text + fmt::format(
-                    ". p = {:.2g}: permutation test on the variance over points of their "
-                    "sums over seeds, {} draws.",
-                    *effect.p, kDraws);
+  text += ".";
+  if (effect.p) {
+    text += fmt::format(
+        " p = {:.2g}: permutation test on the variance over points of their sums over seeds, {} "
+        "draws.",
+        *effect.p, kDraws);
+  }
+  return text + saturated_text(effect);
 }
 
 std::vector<bool> without_effect(const ResponseTable& table) {

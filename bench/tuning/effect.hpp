@@ -20,6 +20,11 @@ struct Effect {
   /// within each seed; the fraction of 199 draws in which the variance over points of their sums
   /// over seeds, of the objective's logarithm, is as large. None with one seed.
   std::optional<double> p;
+  /// Whether the test could resolve an effect that is alike on all seeds: not with few seeds and
+  /// points, or many equal ones.
+  bool testable = true;
+  std::size_t cases = 0;
+  std::size_t saturated = 0;  ///< cases on which every run diverged and counts by the penalty
   bool small = false;         ///< too little to matter, as in comparisons (`smallest_change`)
   bool of_one_point = false;  ///< resolved, and not without the point farthest from the mean
 

@@ -90,6 +90,7 @@ void measure(const ResponseTable& table, std::size_t point, std::span<const std:
   gain.median_after = median(after);
   gain.mean_before = mean(both_before);
   gain.mean_after = mean(both_after);
+  gain.undiverged = both_after.size();
 }
 
 }  // namespace
@@ -101,7 +102,9 @@ std::string measured_text(const PairedGain& gain) {
     text = fmt::format("median {} {:.3g} -> {:.3g}{}, ", gain.score, *gain.median_before,
                        *gain.median_after, unit);
     if (gain.mean_before && gain.mean_after) {
-      text += fmt::format("mean change {:+.2g}{}, ", *gain.mean_after - *gain.mean_before, unit);
+      text += fmt::format("mean change {:+.2g}{}", *gain.mean_after - *gain.mean_before, unit);
+      const bool all = gain.undiverged == gain.sequences;
+      text += all ? ", " : fmt::format(" over the {} where neither diverged, ", gain.undiverged);
     }
   }
   return text + fmt::format("diverged runs {} -> {} of {}", gain.diverged_before, gain.diverged,
@@ -236,7 +239,8 @@ std::string verdict_text(const PairedGain& held_out) {
     return fmt::format("{}: {} ({})", better ? "use them" : "do not use them", on, figures);
   }
   if (may_be_better(held_out)) {
-    return fmt::format("undecided: {} ({}); more held-out seeds are needed{}", on, figures,
+    return fmt::format("undecided: {} ({}); decide in a plan of its own, on more seeds that "
+                       "were never looked at{}", on, figures,
                        is_small(held_out) ? ", and the gain so far is too small to matter" : "");
   }
   return fmt::format("do not use them: no significant difference from the defaults: {} ({})", on,

@@ -31,6 +31,7 @@ struct PairedGain {
   std::optional<double> median_after;   ///< with the values of the point
   std::optional<double> mean_before;    ///< over the sequences on which neither diverged
   std::optional<double> mean_after;     ///< over the same
+  std::size_t undiverged = 0;           ///< those sequences
   double p = 1.0;  ///< of the sign-flip test over seeds (bench/metrics/paired_test.hpp)
 };
 

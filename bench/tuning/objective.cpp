@@ -63,8 +63,9 @@ void describe(Fields& fields, Objective& objective) {
   fields.flag("relative", objective.relative,
               {.meaning = "divide each score by that of the default setting on the same sequence"});
   fields.number("divergence_penalty", objective.divergence_penalty,
-                {.range = positive_up_to(1e9),
-                 .meaning = "value of a diverged run; added times the fraction of diverged runs"});
+                {.range = {.min = 0.0, .max = 1e9},
+                 .meaning = "value of a diverged run; added times the fraction of diverged runs; "
+                            "0: a diverged run counts by its score"});
 }
 
 std::string text_of(const Objective& objective) {
@@ -76,10 +77,13 @@ std::string text_of(const Objective& objective) {
   }
   const char* timing =
       is_timing(objective.score) ? "; a time depends on the machine and on its load" : "";
-  return fmt::format("{} of {}{}; a diverged run counts {}, and {} times their fraction is added{}",
-                     statistic, objective.score,
-                     objective.relative ? " over that of the defaults" : "",
-                     objective.divergence_penalty, objective.divergence_penalty, timing);
+  const std::string penalty =
+      objective.divergence_penalty == 0.0
+          ? fmt::format("a diverged run counts by its score, {} without one", kWithoutScore)
+          : fmt::format("a diverged run counts {0}, and {0} times their fraction is added",
+                        objective.divergence_penalty);
+  return fmt::format("{} of {}{}; {}{}", statistic, objective.score,
+                     objective.relative ? " over that of the defaults" : "", penalty, timing);
 }
 
 std::string value_label(const Objective& objective) {
@@ -134,7 +138,7 @@ std::optional<double> objective_value(const Objective& objective, std::span<cons
     auto value = counted(objective, runs[i], i < reference.size() ? &reference[i] : nullptr);
     if (runs[i].diverged) {
       ++diverged;
-      value = std::max(value.value_or(objective.divergence_penalty), objective.divergence_penalty);
+      value = std::max(value.value_or(kWithoutScore), objective.divergence_penalty);
     }
     if (value) values.push_back(*value);
   }

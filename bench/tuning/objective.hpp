@@ -25,7 +25,8 @@ struct Objective {
   ObjectiveStatistic statistic = ObjectiveStatistic::kMedian;
   double quantile = 0.9;           ///< for `kQuantile`, in (0, 1)
   bool relative = true;            ///< each score over that of the defaults on the same sequence
-  double divergence_penalty = 10;  ///< value of a diverged run, and added times their fraction; > 0
+  /// Value of a diverged run, and added times their fraction; 0: it counts by its score.
+  double divergence_penalty = 10;
 };
 
 void describe(Fields& fields, Objective& objective);
@@ -55,8 +56,12 @@ struct RunScore {
 /// and is not diverged.
 RunScore run_score(const JobResult& job, const std::string& score);
 
+/// Counts for a run that failed before it had a score.
+inline constexpr double kWithoutScore = 10.0;
+
 /// The statistic over the runs, plus the penalty times the fraction of diverged runs. A diverged
-/// run counts as the penalty in the statistic, or as its score where that is more. Where the
+/// run counts as the penalty in the statistic, or as its score where that is more; as
+/// `kWithoutScore` at least where it has none. Where the
 /// objective is relative, `reference` has the runs of the default setting on the same sequences,
 /// and a run without a positive reference is left out unless it diverged. Invalid runs are left
 /// out. None when no run is left.

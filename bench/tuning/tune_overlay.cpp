@@ -53,6 +53,9 @@ std::string overlay_text(const TuneResult& result) {
       fmt::format("# Values of `{}` by aims tune; on top of any scenario: --set @FILE\n",
                   text_of(task.estimator));
   for (const std::string& line : verdict_lines(result)) text += fmt::format("# {}\n", line);
+  if (!result.earlier_looks.empty()) {
+    text += fmt::format("# warning: {}\n", looks_text(result.earlier_looks.size()));
+  }
   text += fmt::format("# objective: {}\n", text_of(task.plan.objectives.front()));
   const PairedGain tuned =
       paired_gain(result.tables.front(), task.plan.objectives.front(), result.chosen.front());

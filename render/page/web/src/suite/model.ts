@@ -156,6 +156,9 @@ export interface Comparison {
   after: string;
   summary?: string;
   changes: ScoreChange[];
+  /** Since aims.compare of 2026-11: runs on which an estimator fails on one side alone. */
+  fails_now?: string[];
+  fails_no_more?: string[];
   only_before: string[];
   only_after: string[];
 }
