@@ -64,6 +64,9 @@ Result<void> score_against_truth(const EstimateConfig& config, EstimateResult& r
   if (!truth) return tl::unexpected(truth.error());
   if (truth->empty()) return {};
   drop_unusable(*truth, "the truth", result.setup.notes);
+  if (const std::string leaps = leaps_text(*truth); !leaps.empty()) {
+    result.setup.warnings.push_back({"truth jumps", "truth: " + leaps});
+  }
   ScoringInput input;
   input.scoring = config.scoring;
   input.truth = {result.bag.stem().string(), result.bag.string(), "truth of the recording",

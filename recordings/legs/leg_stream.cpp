@@ -64,6 +64,12 @@ void LegStream::check_imu(const ImuSample& sample) {
   check_.add_imu(in_base, T_base_body.translation);
 }
 
+std::vector<ReadingWarning> LegStream::warnings() const {
+  std::vector<ReadingWarning> found = check_.warnings();
+  if (auto twist = twist_check_.warning()) found.push_back(std::move(*twist));
+  return found;
+}
+
 bool LegStream::same_instant(Time a, Time b) const {
   return std::max(a, b) - std::min(a, b) <= config_.half_period;
 }

@@ -58,7 +58,7 @@ class LegStream {
   /// A further sample that the last call of these completed: of joints that waited with others.
   std::optional<LegOdometrySample> next(EventCounts& counts);
   /// How legs and IMU contradict each other so far.
-  std::vector<ReadingWarning> warnings() const { return check_.warnings(); }
+  std::vector<ReadingWarning> warnings() const;
 
  private:
   /// Joints of an instant whose contacts may still come.

@@ -178,6 +178,34 @@ TEST(LegStream, ImplausibleTwistsAreNotIntegrated) {
   EXPECT_NEAR(legs.add_twist(sample).T_odom_base.translation.x(), 0.01, 1e-12);
 }
 
+/// What is said of a twist of `factor` times the velocity and the turn rate of the pose.
+std::string contradiction_of(double of_velocity, double of_turning) {
+  LegStream legs({});
+  EventCounts counts;
+  for (int i = 0; i < 1000; ++i) {
+    const double yaw = 0.003 * i;
+    LegOdometrySample sample;
+    sample.stamp = i * 10 * kMillisecond;
+    sample.T_odom_base = {yaw_rotation(yaw), {2.0 * std::sin(yaw), 2.0 - 2.0 * std::cos(yaw), 0.0}};
+    sample.linear_velocity = {of_velocity * 0.6, 0.0, 0.0};
+    sample.angular_velocity = {0.0, 0.0, of_turning * 0.3};
+    legs.add_odometry(sample, counts);
+  }
+  const auto found = legs.warnings();
+  return found.empty() ? "" : found.front().text;
+}
+
+TEST(LegStream, ATwistThatContradictsThePoseIsNamed) {
+  EXPECT_EQ(contradiction_of(1.0, 1.0), "");
+  EXPECT_EQ(contradiction_of(1.2, 1.0), "") << "slip";
+  const std::string backwards = contradiction_of(-1.0, 1.0);
+  EXPECT_NE(backwards.find("its mean velocity in axes of the base is (0.59, 0.09, 0.00) m/s by its "
+                           "pose and (-0.59, -0.09, 0.00) by its twist"),
+            std::string::npos)
+      << backwards;
+  EXPECT_NE(contradiction_of(1.0, 57.3).find("it turns by "), std::string::npos);
+}
+
 /// Seconds counted as of a twist in the wrong axes, on a walk along a curve.
 int wrong_seconds(bool in_odometry_axes) {
   LegStreamConfig config;

@@ -12,6 +12,7 @@
 #include "recordings/messages/message_encoding.hpp"
 #include "recordings/messages/message_types.hpp"
 #include "recordings/trajectories/bag_trajectory.hpp"
+#include "recordings/trajectories/pose_cleaning.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {
@@ -443,6 +444,26 @@ TEST_F(TrajectoryFiles, APoseBeforeTheBodyIsFoundIsLeftOutToo) {
   ASSERT_EQ(read->trajectory.size(), 40U);
   EXPECT_NEAR(read->trajectory.front().pose.translation.x(), 3.02, 1e-9);
   EXPECT_EQ(read_trajectory(file("odom.tum", started), {})->trajectory.size(), 50U);
+}
+
+TEST(PoseCleaning, LeapsOfATruthAreTold) {
+  const auto text_of = [](double jump, bool frozen) {
+    Trajectory truth;
+    for (int i = 0; i < 100; ++i) {
+      const bool still = frozen && i >= 20 && i < 60;
+      const double x = 0.05 * (still ? 20 : i) + (i >= 60 ? jump : 0.0);
+      truth.push_back({i * kSecond / 20, {Eigen::Quaterniond::Identity(), {x, 0.0, 0.0}}});
+    }
+    return leaps_text(truth);
+  };
+  EXPECT_EQ(text_of(0.0, false), "");
+  EXPECT_NE(text_of(5.0, false)
+                .find("jump 1 times from one pose to the next, by up to 5.05 m (3.0 "
+                      "s after its start)"),
+            std::string::npos)
+      << text_of(5.0, false);
+  EXPECT_NE(text_of(0.0, true).find("after they stood still for 2.0 s"), std::string::npos)
+      << text_of(0.0, true);
 }
 
 TEST_F(TrajectoryFiles, DirectionsOfTheCompassAreColumns) {
