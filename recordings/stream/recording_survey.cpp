@@ -417,6 +417,14 @@ void RecordingSurvey::decide_frames(RecordingPlan& plan) {
       config_.lidar_frame.empty() ? seen(Role::kLidar).frame : config_.lidar_frame;
   const bool silent =
       !topics_.imu.empty() && topics_.imu != "none" && seen(Role::kImu).stamps.empty();
+  if (!topics_.lidar.empty() && is_world_frame(lidar)) {
+    notes_.warn("clouds are perhaps registered",
+                fmt::format("{}: its frame '{}' is by its name one of the world: clouds that "
+                            "another system has moved there are no scans; choose the LiDAR's own "
+                            "(topics.lidar), or name its frame (lidar_frame)",
+                            topics_.lidar, lidar),
+                WarnedSensor::kLidar);
+  }
   if (!topics_.lidar.empty() && !silent) {
     setup.rig.T_body_lidar =
         frames_.extrinsic(config_.T_imu_lidar, imu_frame(), lidar, "T_imu_lidar", notes_);

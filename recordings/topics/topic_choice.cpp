@@ -55,7 +55,8 @@ bool may_be_joints(const BagConnection& c) { return is_joints(c) || is_state(c, 
 bool is_anything(const BagConnection&) { return true; }
 bool is_truth(const BagConnection& c) {
   return is_odometry(c) || c.type == "geometry_msgs/PoseStamped" ||
-         c.type == "geometry_msgs/PoseWithCovarianceStamped";
+         c.type == "geometry_msgs/PoseWithCovarianceStamped" ||
+         c.type == "geometry_msgs/TransformStamped" || c.type == "geometry_msgs/PointStamped";
 }
 /// Names of ground truth, and of the motion captures that measure it.
 bool is_called_truth(const BagConnection& c) {
@@ -100,6 +101,8 @@ class Chooser {
  public:
   Chooser(const std::filesystem::path& bag, std::span<const BagConnection> connections)
       : bag_(bag), connections_(connections) {}
+
+  std::span<const BagConnection> connections() const { return connections_; }
 
   /// The requested topic, if it exists and has a suitable type.
   Result<std::string> requested(const Request& request, const std::string& topic) const {
@@ -246,6 +249,16 @@ struct Choice {
   }
 };
 
+/// Of a topic that is called a truth, which only a name chooses.
+void note_unused_truth(const Chooser& chooser, std::vector<std::string>& notes) {
+  for (const BagConnection& each : chooser.connections()) {
+    if (!is_truth(each) || !is_called_truth(each) || each.topic == kTruthLidarTopic) continue;
+    notes.push_back(fmt::format("{} is perhaps a truth: to score against it, --topics truth={}",
+                                each.topic, each.topic));
+    return;
+  }
+}
+
 Choice choice_of(const Chooser& chooser, const TopicsConfig& configured,
                  std::vector<std::string>& notes) {
   const Request lidar = {"lidar", "sensor_msgs/PointCloud2 or a livox CustomMsg", is_cloud};
@@ -263,11 +276,17 @@ Choice choice_of(const Chooser& chooser, const TopicsConfig& configured,
                                               kFootContactsTopic, may_be_contacts, notes));
   add_state(chooser, configured, topics);
   if (!configured.truth.empty() && configured.truth != kNone) {
-    const Request truth = {"truth", "nav_msgs/Odometry or geometry_msgs/PoseStamped", is_truth};
+    const Request truth = {
+        "truth",
+        "nav_msgs/Odometry or PoseStamped, PoseWithCovarianceStamped, TransformStamped or "
+        "PointStamped of geometry_msgs (poses of tf: aims score --truth "
+        "RECORDING:/tf:PARENT,CHILD)",
+        is_truth};
     choice.keep(topics.truth, chooser.requested(truth, configured.truth));
   } else if (configured.truth.empty()) {
     const BagConnection* known = chooser.find(kTruthImuTopic);
     if (known != nullptr && is_truth(*known)) topics.truth = known->topic;
+    if (topics.truth.empty()) note_unused_truth(chooser, notes);
   }
   return choice;
 }

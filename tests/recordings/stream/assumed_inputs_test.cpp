@@ -153,6 +153,57 @@ TEST_F(AssumedInputs, ATruthOfAnotherClockIsAWarning) {
   }
 }
 
+TEST_F(AssumedInputs, FramesThatAreNoneOfASensorAreWarnings) {
+  const auto setup_of = [this](const std::vector<FrameTransform>& frames, const std::string& topic,
+                               const std::string& lidar) {
+    std::filesystem::remove(bag());
+    RobotRecording robot(bag());
+    robot.add_transforms(frames, topic);
+    robot.add_imu(kStart, 100);
+    auto cloud = test::RawCloud::of(kStart, {{1.0F, 0.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F, 0.09F}});
+    cloud.frame = lidar;
+    robot.add_cloud(cloud, kStart + kSecond / 10);
+    robot.close();
+    return test::read_recording(bag(), {}).setup;
+  };
+  Pose in_mm;
+  in_mm.translation.x() = 163.0;
+  const auto far = setup_of({{"imu", "lidar", in_mm}}, "/tf_static", "lidar");
+  EXPECT_TRUE(warns(far, "tf puts 'lidar' 163 m from 'imu'"));
+  const auto moved = setup_of({{"imu", "camera_init", {}}}, "/tf_static", "camera_init");
+  EXPECT_TRUE(warns(moved, "/points: its frame 'camera_init' is by its name one of the world"));
+  const auto named = setup_of({{"imu", "lidar", {}}}, "/robot1/tf_static", "lidar");
+  EXPECT_TRUE(std::ranges::count(named.notes, "/robot1/tf_static: taken for /tf_static") == 1);
+  EXPECT_FALSE(warns(named, "NO TRANSFORM"));
+}
+
+TEST_F(AssumedInputs, ATruthOfPointsIsReadOnceItIsNamed) {
+  const std::string base = odometry_type().definition;
+  const MessageType points = {"geometry_msgs/PointStamped", "c63aecb41bfdfd6b7e1fac37c7cbe7bf",
+                              "Header header\nPoint point\n" + base.substr(base.find("\n="))};
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  robot.add_imu(kStart, 100);
+  robot.add_clouds(kStart, 10);
+  for (int k = 0; k < 20; ++k) {
+    const Time now = kStart + k * kSecond / 10;
+    MessageBytes bytes;
+    bytes.put(std::uint32_t{7});
+    bytes.time(now);
+    bytes.text("world");
+    for (const double value : {0.1 * k, 2.0, 3.0}) bytes.put(value);
+    robot.add("/mocap/point", points, now, bytes);
+  }
+  robot.close();
+  const Recording unnamed = test::read_recording(bag(), {});
+  EXPECT_TRUE(unnamed.noted("--topics truth=/mocap/point"));
+  RecordingConfig config;
+  config.topics.truth = "/mocap/point";
+  const Recording read = test::read_recording(bag(), config);
+  ASSERT_EQ(read.truth.size(), 20U) << read.error;
+  EXPECT_NEAR(read.truth[1].pose.translation.x(), 0.1, 1e-12);
+}
+
 TEST_F(AssumedInputs, TheOnlyOdometryIsNamedAndThatOfAnotherEstimatorIsAWarning) {
   const Recording usual = with_odometry("/odom");
   EXPECT_TRUE(usual.setup.has_legs);

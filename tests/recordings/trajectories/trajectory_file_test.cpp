@@ -542,6 +542,18 @@ TEST_F(TrajectoryFiles, EmptyCellsAreNoPosition) {
   EXPECT_NE(read->notes.back().find("1 of 3 poses dropped: 1 not finite"), std::string::npos);
 }
 
+TEST_F(TrajectoryFiles, WhatIsNoTrajectoryIsNamedAsWhatItIs) {
+  const std::string tar = std::string(257, 'a') + "ustar" + std::string(300, '\0');
+  for (const char* name : {"x.tum", "x.bag", "x.mcap"}) {
+    EXPECT_NE(message_of(file(name, "\n<!DOCTYPE html><html>\n")).find("is a web page"),
+              std::string::npos);
+    EXPECT_NE(message_of(file(name, "version https://git-lfs.github.com/spec/v1\nsize 1\n"))
+                  .find("pointer of Git LFS"),
+              std::string::npos);
+    EXPECT_NE(message_of(file(name, tar)).find("unpack it with tar"), std::string::npos);
+  }
+}
+
 TEST_F(TrajectoryFiles, APipeIsRefusedAtOnce) {
   const auto pipe = folder_.path() / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
