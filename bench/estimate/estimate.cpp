@@ -257,7 +257,12 @@ Result<StreamEnd> stream_into_log(const EstimateConfig& config, RecordingReader&
   if (take()) taken = log->commit(estimators);
   if (!taken) return tl::unexpected(taken.error());
   if (evidence) evidence->finish();
-  const auto mount = evidence ? warning_of(*evidence, result.setup.rig.T_body_lidar) : std::nullopt;
+  // Of clocks that differ each verdict on axes would be one on them.
+  const bool clocks = std::ranges::any_of(result.setup.warnings, [](const ReadingWarning& each) {
+    return each.reason.starts_with("clocks of ");
+  });
+  const auto mount =
+      evidence && !clocks ? warning_of(*evidence, result.setup.rig.T_body_lidar) : std::nullopt;
   for (const auto& each : {mount, way.warning()}) {
     if (each) result.by_lidar.push_back(*each);
   }
