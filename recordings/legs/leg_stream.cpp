@@ -14,6 +14,9 @@ constexpr double kLevellingRate = 1.0;  ///< correction of an integrated attitud
 constexpr double kMaxStep = 0.5;        ///< longest step that is integrated [s]
 constexpr double kMaxTwist = 1000.0;    ///< [m/s], [rad/s]
 constexpr Duration kMaxContactAge = kSecond / 5;
+
+/// Longer without a foot in contact the robot is carried or lies.
+constexpr Duration kMaxFlight = kSecond / 2;
 constexpr std::size_t kRecentContacts = 512;
 constexpr std::size_t kMostWaiting = 512;  ///< joints
 
@@ -231,7 +234,7 @@ bool LegStream::has_contacts(const std::optional<ImuSample>& imu, const ContactR
 }
 
 /// Velocity of the base by leg kinematics: the mean over the feet in contact, or the last value
-/// without contacts.
+/// during a short flight.
 std::optional<LegOdometrySample> LegStream::forward_kinematics(const WaitingJoints& waiting,
                                                                EventCounts& counts) {
   const JointReading& joints = waiting.reading;
@@ -313,8 +316,15 @@ std::optional<LegOdometrySample> LegStream::add_feet(FeetReading reading, EventC
 std::optional<LegOdometrySample> LegStream::finish(LegOdometrySample sample,
                                                    const Eigen::Vector3d& sum, int feet,
                                                    EventCounts& counts) {
-  if (feet > 0) velocity_ = sum / feet;
-  if (feet == 0) ++counts["legs_no_contact"];
+  if (feet > 0) {
+    velocity_ = sum / feet;
+    last_contact_ = sample.stamp;
+  } else {
+    ++counts["legs_no_contact"];
+    if (last_contact_ && sample.stamp - *last_contact_ > kMaxFlight) {
+      return ++counts["legs_in_the_air"], std::nullopt;
+    }
+  }
   if (!velocity_.allFinite()) {
     velocity_.setZero();
     return ++counts["legs_not_finite"], std::nullopt;

@@ -110,6 +110,7 @@ class LegStream {
   std::optional<Time> integrated_;
   Pose T_odom_base_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< from the last feet in contact [m/s]
+  std::optional<Time> last_contact_;                    ///< of any foot
 };
 
 }  // namespace aims

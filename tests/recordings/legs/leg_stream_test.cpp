@@ -92,6 +92,34 @@ TEST(LegStream, KeepsTheLastVelocityWithoutContacts) {
   EXPECT_EQ(counts, (EventCounts{{"legs_no_contact", 1}}));
 }
 
+TEST(LegStream, ARobotThatIsCarriedHasNoLegOdometry) {
+  LegStream legs(kinematic());
+  EventCounts counts;
+  legs.add_imu(at_rest(0));
+  const auto at = [&](Time stamp, std::array<bool, kLegCount> contact) {
+    legs.add_contacts({stamp, contact}, counts);
+    return legs.add_joints(striding(stamp), counts);
+  };
+  const auto standing = at(10 * kMillisecond, {true, false, false, true});
+  ASSERT_TRUE(standing);
+  for (int i = 1; i <= 50; ++i) EXPECT_TRUE(at(standing->stamp + i * 10 * kMillisecond, {})) << i;
+  for (int i = 51; i < 500; ++i) EXPECT_FALSE(at(standing->stamp + i * 10 * kMillisecond, {})) << i;
+  EXPECT_EQ(counts["legs_in_the_air"], 449);
+  const auto down = at(standing->stamp + 5 * kSecond, {true, true, true, true});
+  ASSERT_TRUE(down);
+  EXPECT_LT(down->T_odom_base.translation.x(), 0.6 * standing->linear_velocity.x());
+}
+
+TEST(LegStream, LegsWithoutAnyContactStay) {
+  LegStream legs(kinematic());  // the sensors of the feet are dead: others may do without them
+  EventCounts counts;
+  legs.add_imu(at_rest(0));
+  for (Time stamp = kMillisecond; stamp < 2 * kSecond; stamp += 10 * kMillisecond) {
+    legs.add_contacts({stamp, {}}, counts);
+    EXPECT_TRUE(legs.add_joints(striding(stamp), counts));
+  }
+}
+
 TEST(LegStream, OldContactsAreNotUsed) {
   LegStream legs(kinematic());
   EventCounts counts;
