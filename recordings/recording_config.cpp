@@ -127,7 +127,10 @@ void describe(Fields& f, RecordingConfig& c) {
   f.group("topics", c.topics);
   describe_frames(f, c);
   f.choice("imu_unit", c.imu_unit,
-           {{"auto", ImuUnit::kAuto}, {"m/s^2", ImuUnit::kMetres}, {"g", ImuUnit::kGravities}},
+           {{"auto", ImuUnit::kAuto},
+            {"m/s^2", ImuUnit::kMetres},
+            {"g", ImuUnit::kGravities},
+            {"mg", ImuUnit::kMilligravities}},
            dimensionless("unit of the specific force; auto: from its norm at the start"));
   f.choice("gyro_unit", c.gyro_unit, {{"rad/s", GyroUnit::kRadians}, {"deg/s", GyroUnit::kDegrees}},
            dimensionless("unit of the angular velocity"));

@@ -50,7 +50,7 @@ struct ExtrinsicConfig {
   bool is_given() const { return has_numbers() || !static_transform.empty() || !file.empty(); }
 };
 
-enum class ImuUnit { kAuto, kMetres, kGravities };
+enum class ImuUnit { kAuto, kMetres, kGravities, kMilligravities };
 
 /// Unit of the angular velocity in a recording.
 enum class GyroUnit { kRadians, kDegrees };
@@ -98,8 +98,8 @@ struct RecordingConfig {
   std::vector<std::string> foot_names;   ///< of the array's entries, e.g. [FR, FL, RR, RL]
   std::vector<std::string> joint_names;  ///< of the 12 joints, leg by leg; empty: detected
   JointUnit joint_unit = JointUnit::kRadians;
-  /// Of the robot. Lengths of 0 are those that a simulated recording states, else those of the robot
-  /// of the message type, else of a Go1.
+  /// Of the robot. Lengths of 0 are those that a simulated recording states, else those of the
+  /// robot of the message type, else of a Go1.
   LegGeometry leg_geometry;
   FootModel foot_model = FootModel::kPoint;  ///< for legs without odometry
   /// A record of a live estimate is read as that one read it.

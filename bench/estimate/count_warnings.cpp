@@ -91,6 +91,12 @@ void warn_of_legs(EstimateResult& result) {
                      "correct the driver",
                      topic, axes));
   }
+  if (const int air = count_of(result, "legs_in_the_air"); air > 0) {
+    warn("no foot in contact",
+         fmt::format("no foot is in contact for more than half a second, {:.1f} s in all: there is "
+                     "no leg odometry there (a robot that is carried, or feet whose load is lost)",
+                     air / std::max(1.0, result.setup.leg_rate_hz.value_or(0.0))));
+  }
   if (const int none = count_of(result, "legs_no_contact"); none > kMost * samples && none > 0) {
     warn("feet hardly ever in contact",
          fmt::format("no foot is in contact in {} of {:.0f} samples of the legs: the last velocity "

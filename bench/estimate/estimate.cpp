@@ -17,6 +17,7 @@
 #include "bench/estimate/ring_note.hpp"
 #include "bench/estimate/scoring_input.hpp"
 #include "bench/estimate/stream.hpp"
+#include "bench/estimate/way_check.hpp"
 #include "bench/scoring/score_record.hpp"
 #include "core/files/tum.hpp"
 #include "core/files/yaml_config.hpp"
@@ -64,6 +65,9 @@ Result<void> score_against_truth(const EstimateConfig& config, EstimateResult& r
   if (!truth) return tl::unexpected(truth.error());
   if (truth->empty()) return {};
   drop_unusable(*truth, "the truth", result.setup.notes);
+  if (const std::string leaps = leaps_text(*truth); !leaps.empty()) {
+    result.setup.warnings.push_back({"truth jumps", "truth: " + leaps});
+  }
   ScoringInput input;
   input.scoring = config.scoring;
   input.truth = {result.bag.stem().string(), result.bag.string(), "truth of the recording",
@@ -173,7 +177,7 @@ std::vector<std::string> reasons_of(const EstimateConfig& config, const Recordin
 /// Adds what the counts of the whole recording say to the warnings, and all of them to the health.
 void warn_in_health(const EstimateConfig& config, EstimateResult& result) {
   warn_of_counts(result);
-  if (result.rotations) result.setup.warnings.push_back(*result.rotations);
+  std::ranges::copy(result.by_lidar, std::back_inserter(result.setup.warnings));
   for (EstimatorOutcome& each : result.estimators) {
     const auto reasons = reasons_of(config, result.setup, each.name);
     if (reasons.empty()) continue;
@@ -229,6 +233,7 @@ Result<StreamEnd> stream_into_log(const EstimateConfig& config, RecordingReader&
   auto log = EstimateLog::create(options.folder, estimators, std::move(reasons));
   if (!log) return tl::unexpected(log.error());
   auto evidence = RotationEvidence::create(result.setup, WatchedScans::kTurns);
+  WayCheck way(result.setup);
   const bool in_memory = options.folder.empty();
   Result<void> taken;
   const auto take = [&] {
@@ -239,6 +244,7 @@ Result<StreamEnd> stream_into_log(const EstimateConfig& config, RecordingReader&
   const auto next_batch = [&](std::vector<Delivery>& batch) {
     auto more = reader.advance(kStreamBatch, batch);
     if (evidence) evidence->consume(batch);
+    way.consume(batch);
     for (const Delivery& each : batch) {
       const auto* scan = std::get_if<LidarScanPtr>(&each.measurement);
       if (scan == nullptr) continue;
@@ -252,7 +258,15 @@ Result<StreamEnd> stream_into_log(const EstimateConfig& config, RecordingReader&
   if (take()) taken = log->commit(estimators);
   if (!taken) return tl::unexpected(taken.error());
   if (evidence) evidence->finish();
-  if (evidence) result.rotations = warning_of(*evidence, result.setup.rig.T_body_lidar);
+  // Of clocks that differ each verdict on axes would be one on them.
+  const bool clocks = std::ranges::any_of(result.setup.warnings, [](const ReadingWarning& each) {
+    return each.reason.starts_with("clocks of ");
+  });
+  const auto mount =
+      evidence && !clocks ? warning_of(*evidence, result.setup.rig.T_body_lidar) : std::nullopt;
+  for (const auto& each : {mount, way.warning()}) {
+    if (each) result.by_lidar.push_back(*each);
+  }
   result.truth = reader.take_truth();
   for (std::size_t i = 0; i < estimators.size(); ++i) {
     const TimedEstimator& each = estimators[i];

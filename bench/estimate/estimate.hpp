@@ -61,7 +61,7 @@ struct EstimateResult {
   BagSummary summary;
   std::map<std::string, int> counts;        ///< of what was odd in the messages
   int clouds = 0;                           ///< of the LiDAR
-  std::optional<ReadingWarning> rotations;  ///< where LiDAR odometry contradicts the gyro
+  std::vector<ReadingWarning> by_lidar;  ///< where LiDAR odometry contradicts gyro or legs
   bool complete = false;                    ///< false when the observer ended it early
   std::optional<Error> broken;  ///< the bag ended in an error; what came before is estimated
   double recorded_s = 0.0;      ///< of the recording that was read

@@ -19,6 +19,7 @@
 #include "core/files/waypoint_times.hpp"
 #include "recordings/median.hpp"
 #include "recordings/topics/recording_topics.hpp"
+#include "recordings/trajectories/pose_cleaning.hpp"
 #include "recordings/trajectories/trajectory_file.hpp"
 
 namespace aims {
@@ -261,6 +262,9 @@ void resolve_truth(const ScoringRequest& request, ScoringInput& input) {
   if (!request.lever_arm.empty() || !request.lever_arms.empty()) input.truth.has_attitude = false;
   resolve_truth_content(input);
   const Trajectory& truth = input.truth.trajectory;
+  if (const std::string leaps = leaps_text(truth); !leaps.empty()) {
+    input.notes.push_back("truth: " + leaps);
+  }
   if (truth.size() < 3 || input.scoring.association != Association::kInterpolated) return;
   std::vector<Duration> steps;
   for (std::size_t i = 1; i < truth.size(); ++i) {

@@ -24,6 +24,7 @@ constexpr std::size_t kFewestPairs = 10;
 constexpr double kTurned = 10.0;     ///< of the body frame [deg]
 constexpr double kScatter = 5.0;     ///< most of the rotations about their mean, median [deg]
 constexpr double kWellFit = 0.1;     ///< ATE as a fraction of the spread of the true positions
+constexpr double kLevel = 0.87;      ///< cosine of 30 deg, by which worlds may be inclined
 constexpr double kRightAngle = 3.0;  ///< from a multiple of 90 deg that is meant [deg]
 
 double degrees(double radians) { return radians * 180.0 / std::numbers::pi; }
@@ -119,6 +120,14 @@ constexpr std::array<QuaternionReading, 2> kReadings = {
       "are conjugated, as those from the world to the body or of JPL's convention: expected those "
       "from the body to the world"}}};
 
+/// Whether positions fit well and within `most` metres, with any rotation between the worlds.
+bool fits(const std::vector<PosePair>& pairs, double most) {
+  const Alignment alignment = align_se3(pairs);
+  if (alignment.spread != PositionSpread::kFull) return false;
+  const auto error = ate_rmse(aligned(pairs, alignment));
+  return error && *error < most && *error < kWellFit * spread_of(pairs, &PosePair::truth);
+}
+
 /// Of attitudes that fit only when the numbers of one side mean something else. `aligned`: the
 /// same pairs with the estimate aligned by its positions.
 std::optional<std::string> quaternion_hint(std::span<const PosePair> pairs,
@@ -189,6 +198,37 @@ std::optional<std::string> position_unit_hint(const Trajectory& estimate, const 
   return std::nullopt;
 }
 
+std::optional<std::string> world_hint(const Trajectory& estimate, const Trajectory& truth,
+                                      const ScoreConfig& config) {
+  constexpr double kBetter = 0.1;  // of the error
+  const auto pairs = compared_pairs(valid_part(estimate), truth, config);
+  if (pairs.size() < kFewestPairs) return std::nullopt;
+  const auto error = ate_rmse(compared(pairs, config));
+  if (!error) return std::nullopt;
+  const double enough = kBetter * *error;
+  if (const Alignment free = align_se3(pairs); fits(pairs, enough)) {
+    const Eigen::Quaterniond turn = snapped(free.T_truth_estimate.rotation);
+    const bool level = (turn * Eigen::Vector3d::UnitZ()).z() > kLevel;
+    if (level) return std::nullopt;
+    return fmt::format(
+        "positions fit {:.0f} times better once its world is turned by {}: the worlds have other "
+        "axes (z down as in NED, of a camera, left-handed), expected z up and right-handed in both",
+        1.0 / kBetter, turn_text(turn));
+  }
+  auto inverse = pairs, mirrored = pairs;
+  for (PosePair& each : inverse) each.truth = each.truth.inverse();
+  for (PosePair& each : mirrored) each.truth.translation.y() *= -1.0;
+  if (config.truth != TruthContent::kPosition && fits(inverse, enough)) {
+    return "positions fit ten times better with the inverse of the truth's poses: expected those "
+           "of "
+           "the body in the world, in truth and estimate";
+  }
+  if (!fits(mirrored, enough)) return std::nullopt;
+  return "positions fit ten times better with one axis mirrored: one world is left-handed, "
+         "expected "
+         "right-handed ones";
+}
+
 std::optional<std::string> body_frame_hint(const Trajectory& estimate, const Trajectory& truth,
                                            const Pose& T_body_estimate, const ScoreConfig& config) {
   if (config.truth == TruthContent::kPosition) return std::nullopt;
@@ -209,8 +249,10 @@ std::optional<std::string> body_frame_hint(const Trajectory& estimate, const Tra
   const Eigen::Quaterniond turn = snapped(middle);
   const Pose option = Pose{turn, Eigen::Vector3d::Zero()} * T_body_estimate;
   return fmt::format(
-      "its body frame is turned by {} against the truth's: --extrinsic '{}' takes it to the truth's "
-      "(the ATE aligned by heading does not depend on it; heading error, RPE and ATE from the start "
+      "its body frame is turned by {} against the truth's: --extrinsic '{}' takes it to the "
+      "truth's "
+      "(the ATE aligned by heading does not depend on it; heading error, RPE and ATE from the "
+      "start "
       "do)",
       turn_text(turn), extrinsic_text(option));
 }

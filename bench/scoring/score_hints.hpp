@@ -19,6 +19,11 @@ std::optional<std::string> stamp_unit_hint(const Trajectory& estimate, const Tra
 std::optional<std::string> position_unit_hint(const Trajectory& estimate, const Trajectory& truth,
                                               const ScoreConfig& config);
 
+/// Where positions fit ten times better, and well, with the axes of the truth's world turned (NED,
+/// of a camera) or mirrored, or with the truth as the inverse pose: that convention.
+std::optional<std::string> world_hint(const Trajectory& estimate, const Trajectory& truth,
+                                      const ScoreConfig& config);
+
 /// Where the positions fit and the attitude differs from the truth's by one constant rotation of
 /// the body frame, of more than 10 deg: that rotation and the --extrinsic that takes it away, where
 /// `T_body_estimate` was already applied.

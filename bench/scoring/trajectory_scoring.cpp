@@ -40,11 +40,12 @@ Result<void> check_overlap(const SourcedTrajectory& estimate, const SourcedTraje
   if (const auto hint = stamp_unit_hint(estimate.trajectory, truth.trajectory)) {
     return failure(fmt::format("{}: {}", estimate.source, *hint));
   }
-  return failure(
-      fmt::format("{}: its stamps, {}, do not overlap the truth's, {}: likely a clock "
-                  "offset; if both began together, --time-offset {:.9f} makes it good",
-                  estimate.source, span_text(span), span_text(truth.trajectory),
-                  to_seconds(begin - first->stamp)));
+  return failure(fmt::format(
+      "{}: its stamps, {}, do not overlap the truth's, {}: likely a clock "
+      "offset; if both began together, --time-offset {:.9f} makes it good, if both "
+      "ended together, {:.9f}",
+      estimate.source, span_text(span), span_text(truth.trajectory),
+      to_seconds(begin - first->stamp), to_seconds(truth.trajectory.back().stamp - last->stamp)));
 }
 
 void move_near(SourcedTrajectory& each, std::vector<std::string>& notes) {
@@ -110,6 +111,7 @@ void note_causes(const TrajectoryScores& result, std::vector<std::string>& notes
     const Trajectory& given = each.given.trajectory;
     for (const auto& hint :
          {stamp_unit_hint(given, truth), position_unit_hint(given, truth, result.scoring),
+          world_hint(given, truth, result.scoring),
           body_frame_hint(given, truth, each.given.T_body_estimate, result.scoring)}) {
       if (hint) notes.push_back(fmt::format("{}: {}", each.given.name, *hint));
     }

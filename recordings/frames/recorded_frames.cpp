@@ -32,6 +32,19 @@ void warn_of(const std::optional<FrameTree::Contradiction>& found, std::string_v
                          found->angle * (180.0 / std::numbers::pi)));
 }
 
+/// Warns of a sensor that no robot is large enough for.
+void warn_of_distance(const Pose& pose, const std::string& from, const std::string& to,
+                      std::string_view key, ReadingNotes& notes) {
+  constexpr double kFarthest = 5.0;  // [m]
+  const double distance = pose.translation.norm();
+  if (distance < kFarthest) return;
+  notes.warn(fmt::format("{} is far away", key),
+             fmt::format("tf puts '{}' {:.4g} m from '{}', expected less than {:.0f} m: are its "
+                         "translations in mm? Set recording.{}",
+                         to, distance, from, kFarthest, key),
+             key == "T_imu_lidar" ? WarnedSensor::kLidar : WarnedSensor::kLegs);
+}
+
 }  // namespace
 
 void RecordedFrames::add(const MessageView& message, bool fixed) {
@@ -63,7 +76,10 @@ Pose RecordedFrames::extrinsic(const ExtrinsicConfig& configured, const std::str
   if (!from.empty() && from == to) {
     notes.push_back(fmt::format("frame '{}' is both ends of {}: identity", from, key));
   }
-  if (auto pose = find(from, to, notes)) return *pose;
+  if (auto pose = find(from, to, notes)) {
+    warn_of_distance(*pose, from, to, key, notes);
+    return *pose;
+  }
   notes.warn(fmt::format("{} unknown", key),
              fmt::format("NO TRANSFORM from '{}' to '{}' in tf: identity is assumed. Set "
                          "recording.{}.translation and rotation_rpy_deg, or .file to a "

@@ -12,17 +12,20 @@ namespace aims {
 namespace {
 
 constexpr Duration kWindow = kSecond / 2;
-constexpr double kMaxStep = 0.1;        ///< between samples of the IMU [s]
-constexpr double kLevellingRate = 0.2;  ///< of the attitude to the specific force [1/s]
-constexpr int kFewestSamples = 8;       ///< of a window
-constexpr int kFewestWindows = 8;       ///< that a judgement needs
-constexpr double kTurning = 0.15;       ///< of a window that counts [rad/s]
-constexpr double kLeastWeight = 0.01;   ///< squared distance of feet that show a turn [m^2]
-constexpr double kAccelerating = 0.1;   ///< change of velocity that counts [m/s]
-constexpr double kWalking = 0.15;       ///< [m/s]
-constexpr double kOpposite = -0.5;      ///< correlation
-constexpr double kRelated = 0.5;        ///< below feet and gyro have nothing in common
-constexpr double kClear = 0.7;          ///< correlation whose scale is judged
+constexpr double kMaxStep = 0.1;          ///< between samples of the IMU [s]
+constexpr double kLevellingRate = 0.2;    ///< of the attitude to the specific force [1/s]
+constexpr int kFewestSamples = 8;         ///< of a window
+constexpr int kFewestWindows = 8;         ///< that a judgement needs
+constexpr double kTurning = 0.15;         ///< of a window that counts [rad/s]
+constexpr double kLeastWeight = 0.01;     ///< squared distance of feet that show a turn [m^2]
+constexpr double kAccelerating = 0.1;     ///< change of velocity that counts [m/s]
+constexpr std::size_t kStartWindows = 3;  ///< in which a robot starts or stops
+constexpr double kStarting = 0.25;        ///< change of velocity of one that does [m/s]
+constexpr int kFewestStarts = 2;
+constexpr double kWalking = 0.15;   ///< [m/s]
+constexpr double kOpposite = -0.5;  ///< correlation
+constexpr double kRelated = 0.5;    ///< below feet and gyro have nothing in common
+constexpr double kClear = 0.7;      ///< correlation whose scale is judged
 /// Of feet to the IMU; 0.7 on a real robot, whose feet count as standing while they lift off.
 constexpr double kLeastScale = 0.55, kMostScale = 1.7;
 constexpr double kLeastDegrees = 30.0, kMostDegrees = 110.0;  ///< of deg/s: 57
@@ -63,6 +66,7 @@ void LegCheck::add_imu(const ImuSample& sample, const Eigen::Vector3d& place) {
     R_world_base_ = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ());
     window_ = {};
     before_.reset();
+    recent_.clear();
     begin_ = sample.stamp;
   } else {
     const Eigen::Vector3d predicted = R_world_base_.conjugate() * Eigen::Vector3d::UnitZ();
@@ -132,6 +136,7 @@ void LegCheck::compare_velocities() {
   if (window_.legs >= kFewestSamples && window_.imu >= kFewestSamples) {
     now = Velocities{window_.by_force / window_.imu, window_.by_legs / window_.legs};
   }
+  compare_direction(now);
   const auto before = std::exchange(before_, now);
   if (!before || !now) return;
   const auto in_base = [&](const Eigen::Vector3d& change) {
@@ -144,6 +149,22 @@ void LegCheck::compare_velocities() {
     if (std::abs(by_force[axis]) < kAccelerating) continue;
     changes_[static_cast<std::size_t>(axis)].add(by_legs[axis], by_force[axis]);
   }
+}
+
+/// Compares the change of velocity over some windows, as where the robot starts or stops.
+void LegCheck::compare_direction(const std::optional<Velocities>& now) {
+  if (!now) return recent_.clear();
+  recent_.push_back(*now);
+  if (recent_.size() <= kStartWindows) return;
+  const Eigen::Vector2d by_legs = (now->by_legs - recent_.front().by_legs).head<2>();
+  const Eigen::Vector2d by_force = (now->by_force - recent_.front().by_force).head<2>();
+  recent_.pop_front();
+  if (by_legs.norm() < kStarting) return;
+  recent_ = {*now};
+  const double cosine = by_legs.normalized().dot(by_force.normalized());
+  const double ratio = by_force.norm() / by_legs.norm();
+  if (ratio < kLeastScale || ratio > 1.0 / kLeastScale || std::abs(cosine) < kClear) return;
+  ++(cosine > 0.0 ? along_ : against_);
 }
 
 /// Warns of legs that no robot walks on.
@@ -239,11 +260,24 @@ void LegCheck::check_acceleration(std::vector<ReadingWarning>& found) const {
   }
 }
 
+/// Warns of legs that start and stop in the opposite direction.
+void LegCheck::check_direction(std::vector<ReadingWarning>& found) const {
+  if (against_ < kFewestStarts || 3 * along_ > against_) return;
+  found.push_back({"legs walk against the accelerometer",
+                   fmt::format("in {} of {} starts and stops the velocity by the legs changes in "
+                               "the opposite direction of what the accelerometer says: legs are "
+                               "exchanged (joint_names, foot_names), joints have another sign, or "
+                               "the IMU is mounted the other way round (T_imu_base)",
+                               against_, along_ + against_),
+                   WarnedSensor::kLegs});
+}
+
 std::vector<ReadingWarning> LegCheck::warnings() const {
   std::vector<ReadingWarning> found;
   check_stances(found);
   check_turning(found);
   check_acceleration(found);
+  if (found.empty()) check_direction(found);
   return found;
 }
 

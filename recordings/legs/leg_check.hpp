@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -77,9 +78,11 @@ class LegCheck {
   void close();
   void compare_turning();
   void compare_velocities();
+  void compare_direction(const std::optional<Velocities>& now);
   void check_stances(std::vector<ReadingWarning>& found) const;
   void check_turning(std::vector<ReadingWarning>& found) const;
   void check_acceleration(std::vector<ReadingWarning>& found) const;
+  void check_direction(std::vector<ReadingWarning>& found) const;
 
   LegGeometry geometry_;
   std::optional<Time> last_;  ///< stamp of the IMU
@@ -89,7 +92,10 @@ class LegCheck {
   Eigen::Vector3d turning_ = Eigen::Vector3d::Zero();   ///< the last angular velocity [rad/s]
   Eigen::Vector3d place_ = Eigen::Vector3d::Zero();     ///< of the IMU in the base [m]
   Window window_;
-  std::optional<Velocities> before_;      ///< of the window before
+  std::optional<Velocities> before_;  ///< of the window before
+  std::deque<Velocities> recent_;     ///< of the windows before
+  /// Starts and stops that the accelerometer sees in the direction of the legs, or opposite.
+  int along_ = 0, against_ = 0;
   std::array<SignalAgreement, 2> turns_;  ///< of feet, along x and y, and gyro
   std::array<SignalAgreement, 2>
       changes_;                            ///< of velocity by legs and accelerometer, along x and y

@@ -14,6 +14,9 @@ constexpr double kLevellingRate = 1.0;  ///< correction of an integrated attitud
 constexpr double kMaxStep = 0.5;        ///< longest step that is integrated [s]
 constexpr double kMaxTwist = 1000.0;    ///< [m/s], [rad/s]
 constexpr Duration kMaxContactAge = kSecond / 5;
+
+/// Longer without a foot in contact the robot is carried or lies.
+constexpr Duration kMaxFlight = kSecond / 2;
 constexpr std::size_t kRecentContacts = 512;
 constexpr std::size_t kMostWaiting = 512;  ///< joints
 
@@ -62,6 +65,12 @@ void LegStream::check_imu(const ImuSample& sample) {
   in_base.angular_velocity = T_base_body.rotation * sample.angular_velocity;
   in_base.specific_force = T_base_body.rotation * sample.specific_force;
   check_.add_imu(in_base, T_base_body.translation);
+}
+
+std::vector<ReadingWarning> LegStream::warnings() const {
+  std::vector<ReadingWarning> found = check_.warnings();
+  if (auto twist = twist_check_.warning()) found.push_back(std::move(*twist));
+  return found;
 }
 
 bool LegStream::same_instant(Time a, Time b) const {
@@ -225,7 +234,7 @@ bool LegStream::has_contacts(const std::optional<ImuSample>& imu, const ContactR
 }
 
 /// Velocity of the base by leg kinematics: the mean over the feet in contact, or the last value
-/// without contacts.
+/// during a short flight.
 std::optional<LegOdometrySample> LegStream::forward_kinematics(const WaitingJoints& waiting,
                                                                EventCounts& counts) {
   const JointReading& joints = waiting.reading;
@@ -307,8 +316,15 @@ std::optional<LegOdometrySample> LegStream::add_feet(FeetReading reading, EventC
 std::optional<LegOdometrySample> LegStream::finish(LegOdometrySample sample,
                                                    const Eigen::Vector3d& sum, int feet,
                                                    EventCounts& counts) {
-  if (feet > 0) velocity_ = sum / feet;
-  if (feet == 0) ++counts["legs_no_contact"];
+  if (feet > 0) {
+    velocity_ = sum / feet;
+    last_contact_ = sample.stamp;
+  } else {
+    ++counts["legs_no_contact"];
+    if (last_contact_ && sample.stamp - *last_contact_ > kMaxFlight) {
+      return ++counts["legs_in_the_air"], std::nullopt;
+    }
+  }
   if (!velocity_.allFinite()) {
     velocity_.setZero();
     return ++counts["legs_not_finite"], std::nullopt;

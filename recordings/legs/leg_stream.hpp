@@ -58,7 +58,7 @@ class LegStream {
   /// A further sample that the last call of these completed: of joints that waited with others.
   std::optional<LegOdometrySample> next(EventCounts& counts);
   /// How legs and IMU contradict each other so far.
-  std::vector<ReadingWarning> warnings() const { return check_.warnings(); }
+  std::vector<ReadingWarning> warnings() const;
 
  private:
   /// Joints of an instant whose contacts may still come.
@@ -110,6 +110,7 @@ class LegStream {
   std::optional<Time> integrated_;
   Pose T_odom_base_;
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< from the last feet in contact [m/s]
+  std::optional<Time> last_contact_;                    ///< of any foot
 };
 
 }  // namespace aims

@@ -20,7 +20,7 @@ constexpr double kLargeAngle = 6.5;      ///< of no joint of a leg [rad]
 
 bool is_world_frame(const std::string& frame) {
   return frame.find("odom") != std::string::npos || frame.find("map") != std::string::npos ||
-         frame.find("world") != std::string::npos;
+         frame.find("world") != std::string::npos || frame.find("camera_init") != std::string::npos;
 }
 
 void LegSurvey::add_joints(const MessageView& message, Time record_time, const StateLayout* state) {

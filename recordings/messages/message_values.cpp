@@ -195,8 +195,10 @@ std::optional<ImuSample> imu_at(const MessageView& message, Time record_time, Ev
 std::optional<Pose> message_pose(const MessageView& message, std::string_view path,
                                  EventCounts& counts) {
   const std::string prefix(path);
-  const auto position = vector_at(message, prefix + ".position");
-  const auto rotation = quaternion_at(message, prefix + ".orientation");
+  auto position = vector_at(message, prefix + ".position");
+  auto rotation = quaternion_at(message, prefix + ".orientation");
+  if (!position) position = vector_at(message, prefix + ".translation");
+  if (!rotation) rotation = quaternion_at(message, prefix + ".rotation");
   if (!position || !rotation) return std::nullopt;
   Pose pose{*rotation, *position};
   const double norm = pose.rotation.norm();

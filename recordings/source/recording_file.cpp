@@ -56,7 +56,7 @@ bool is_same(const fs::path& a, const fs::path& b) {
 }
 
 std::string first_bytes(const fs::path& file) {
-  std::string start(16, '\0');
+  std::string start(512, '\0');
   std::ifstream stream(file, std::ios::binary);
   stream.read(start.data(), static_cast<std::streamsize>(start.size()));
   start.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
@@ -122,6 +122,9 @@ Result<void> refuse_packed(const fs::path& file) {
     return failure(
         fmt::format("{}: the file is packed: unpack it with {}", file.string(), program));
   }
+  if (const std::string_view foreign = foreign_content(start); !foreign.empty()) {
+    return failure(fmt::format("{}: {}", file.string(), foreign));
+  }
   return {};
 }
 
@@ -133,6 +136,21 @@ Result<std::unique_ptr<MessageSink>> created(const fs::path& file, BagWriterOpti
 }
 
 }  // namespace
+
+std::string_view foreign_content(std::string_view start) {
+  constexpr std::size_t kTarSign = 257;
+  if (start.size() > kTarSign && start.substr(kTarSign).starts_with("ustar")) {
+    return "the file is an archive: unpack it with tar";
+  }
+  const std::size_t first = start.find_first_not_of(" \t\r\n");
+  const std::string_view text = start.substr(std::min(first, start.size()));
+  if (text.starts_with("version https://git-lfs")) {
+    return "the file is a pointer of Git LFS: fetch its content with git lfs pull";
+  }
+  const bool page = text.starts_with("<!DOCTYPE") || text.starts_with("<!doctype") ||
+                    text.starts_with("<html") || text.starts_with("<HTML");
+  return page ? "the file is a web page, as of a download that failed: download it again" : "";
+}
 
 std::optional<RecordingFormat> format_by_content(const fs::path& file) {
   std::error_code ignored;

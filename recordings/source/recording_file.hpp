@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include "core/error.hpp"
 #include "recordings/bag/bag_writer.hpp"
@@ -28,6 +29,10 @@ std::optional<RecordingFormat> format_by_content(const std::filesystem::path& fi
 /// The format that a name's extension stands for: ".bag", ".mcap", ".db3", ".pcap" or
 /// ".yaml"; else nothing.
 std::optional<RecordingFormat> format_by_name(const std::filesystem::path& file);
+
+/// Why such a beginning of a file is that of no recording or trajectory: a page of a download, a
+/// pointer of Git LFS, an archive; else empty.
+std::string_view foreign_content(std::string_view start);
 
 /// Opens a recording of any format, by its content, merged with the files of `options.with`. A
 /// folder without metadata.yaml whose files are not those of one rosbag2 recording is all

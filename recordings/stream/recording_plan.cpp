@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -61,6 +62,19 @@ Result<void> survey_transforms(MessageSource& bag, const std::string& topic, boo
     if (view) survey.add_transforms(*view, fixed);
   }
   return {};
+}
+
+/// The topic of transforms; of a robot with a namespace, the only one that ends so.
+std::string transforms_topic(const MessageSource& bag, const std::string& name,
+                             std::vector<std::string>& notes) {
+  if (!type_of(bag.connections(), name).empty()) return name;
+  std::set<std::string> found;
+  for (const BagConnection& each : bag.connections()) {
+    if (each.topic.ends_with(name) && each.type.starts_with("tf")) found.insert(each.topic);
+  }
+  if (found.size() != 1) return name;
+  notes.push_back(fmt::format("{}: taken for {}", *found.begin(), name));
+  return *found.begin();
 }
 
 /// Reads the first messages of one topic, whenever they come.
@@ -164,9 +178,9 @@ WithLegs with_legs(const RecordingConfig& given, MessageSource& bag, const State
   } else if (state != nullptr) {
     legs = completed(given.leg_geometry, *state->geometry, state->robot, notes);
     if (states_some) return with;
-    notes.push_back(fmt::format(
-        "leg geometry: that of {}, as the message type {} suggests (leg_geometry)", state->robot,
-        state->type));
+    notes.push_back(
+        fmt::format("leg geometry: that of {}, as the message type {} suggests (leg_geometry)",
+                    state->robot, state->type));
   } else {
     legs = completed(given.leg_geometry, kAssumedLegs, "a Unitree Go1", notes);
     with.known = states_some;
@@ -223,11 +237,11 @@ Result<RecordingPlan> plan_recording(MessageSource& bag, const RecordingConfig& 
     notes.push_back("record times are all the same: messages arrive in the order of the file");
   }
   RecordingSurvey survey(config, topics);
-  if (auto ok = survey_transforms(bag, "/tf_static", true, survey); !ok) {
-    return tl::unexpected(ok.error());
-  }
-  if (auto ok = survey_transforms(bag, "/tf", false, survey); !ok) {
-    return tl::unexpected(ok.error());
+  for (const auto& [topic, fixed] : {std::pair("/tf_static", true), std::pair("/tf", false)}) {
+    const std::string found = transforms_topic(bag, topic, notes);
+    if (auto ok = survey_transforms(bag, found, fixed, survey); !ok) {
+      return tl::unexpected(ok.error());
+    }
   }
   for (const std::string& topic : channels.topics()) {
     const auto ok = survey_topic(bag, topic, channels, survey);

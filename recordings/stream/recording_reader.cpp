@@ -233,6 +233,9 @@ void RecordingReader::Impl::take_contacts(const MessageView& view, std::vector<D
 void RecordingReader::Impl::take_truth(const MessageView& view) {
   auto pose = message_pose(view, "pose.pose", counts);
   if (!pose) pose = message_pose(view, "pose", counts);
+  if (!pose) pose = message_pose(view, "transform", counts);
+  const auto point = pose ? std::nullopt : vector_at(view, "point");
+  if (point) pose = Pose{Eigen::Quaterniond::Identity(), *point};
   if (!pose) return malformed(Role::kTruth);
   const Time stamp = stamp_of(Role::kTruth, header_stamp(view, record_time), 0.0);
   if (!pose->translation.allFinite()) {
@@ -463,7 +466,8 @@ Result<RecordingReader> RecordingReader::open(std::unique_ptr<MessageSource> bag
   const bool as_live = config.as_live && is_of_live_estimate(*bag);
   if (as_live) {
     notes.push_back(
-        "units, clocks and contacts: decided as by the live estimate that recorded it, from what it "
+        "units, clocks and contacts: decided as by the live estimate that recorded it, from what "
+        "it "
         "had heard (as_live)");
   }
   auto plan = plan_recording(as_live ? start : *bag, config, *topics, *channels, std::move(notes));

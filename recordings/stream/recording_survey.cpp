@@ -27,7 +27,8 @@ constexpr double kFastTurning = 4.0;
 constexpr double kLeastGravity = 0.5;  ///< of the mean force, as a fraction of the median norm
 /// Of a specific force in m/s^2, in the median.
 constexpr double kLeastForce = 5.0, kMostForce = 15.0;
-constexpr double kSlowImu = 5.0;       ///< [Hz]
+constexpr double kStrangeImu = 5.0;    ///< of stamps in another unit [Hz]
+constexpr double kSlowImu = 40.0;      ///< too slow for a walk [Hz]
 constexpr double kFastImu = 20'000.0;  ///< [Hz]
 
 /// Replaces the nominal rate of a sensor by the measured one where they differ by more than 10 %.
@@ -162,15 +163,19 @@ void RecordingSurvey::warn_of_force(double force) {
   notes_.warn(
       "unit of the accelerometer unknown",
       fmt::format("specific force of {:.3g} at the start is neither gravity in m/s^2 nor in "
-                  "g{}: assumed to be m/s^2 (imu_unit)",
-                  force, is_in_gravities(milligravities) ? ", but it is in mg" : ""));
+                  "g: {}",
+                  force,
+                  is_in_gravities(milligravities)
+                      ? "it seems to be in mg: set recording.imu_unit=mg"
+                      : "assumed to be m/s^2 (imu_unit); convert raw counts before"));
 }
 
 /// The unit of the accelerometer, which gravity gives away.
 void RecordingSurvey::decide_force_unit(RecordingPlan& plan) {
   ReadingNotes& notes = notes_;
   const double force = median_norm(&ImuSample::specific_force);
-  bool gravities = config_.imu_unit == ImuUnit::kGravities;
+  const bool milli = config_.imu_unit == ImuUnit::kMilligravities;
+  bool gravities = milli || config_.imu_unit == ImuUnit::kGravities;
   // Gravity adds up over the samples; accelerations of a walk without it do not.
   const bool any = !first_samples_.empty();
   const double mean = any ? force_sum().norm() / static_cast<double>(first_samples_.size()) : 0.0;
@@ -185,23 +190,43 @@ void RecordingSurvey::decide_force_unit(RecordingPlan& plan) {
     if (!gravities && (force < kLeastForce || force > kMostForce)) warn_of_force(force);
   }
   if (gravities) {
-    plan.force_scale = kStandardGravity;
-    notes.push_back(
-        fmt::format("IMU in g ({:.3f} at the start): multiplied by {}", force, kStandardGravity));
+    plan.force_scale = milli ? kStandardGravity / 1000.0 : kStandardGravity;
+    notes.push_back(fmt::format("IMU in {} ({:.4g} at the start): multiplied by {}",
+                                milli ? "mg" : "g", force, plan.force_scale));
+  }
+}
+
+/// By the times that serve as stamps.
+std::optional<double> RecordingSurvey::imu_rate(const RecordingPlan& plan) const {
+  const Seen& imu = seen(Role::kImu);
+  std::vector<Time> times = imu.stamps;
+  if (plan.stamped_by_record[static_cast<std::size_t>(Role::kImu)]) {
+    for (std::size_t i = 0; i < times.size(); ++i) times[i] += imu.latencies[i];
+  }
+  return sample_rate(std::move(times));
+}
+
+void RecordingSurvey::warn_of_rate(double rate) {
+  if (rate < kStrangeImu || rate > kFastImu) {
+    notes_.warn("rate of the IMU",
+                fmt::format("IMU of {:.3g} Hz by its stamps: are they in another unit than seconds "
+                            "(of a table: time_unit of its mapping), or are most of them lost?",
+                            rate));
+  } else if (rate < kSlowImu) {
+    notes_.warn("IMU is slow",
+                fmt::format("IMU of {:.3g} Hz: a walk shakes faster than it samples, estimates "
+                            "that rely on it drift; 50 Hz at least are expected, 100 Hz or more "
+                            "recommended: is it sent at a reduced rate?",
+                            rate));
   }
 }
 
 void RecordingSurvey::decide_imu(RecordingPlan& plan) {
   ReadingNotes& notes = notes_;
-  plan.setup.imu_rate_hz = sample_rate(seen(Role::kImu).stamps);
+  plan.setup.imu_rate_hz = imu_rate(plan);
   plan.setup.has_orientation = oriented_;
   adopt_rate(plan.setup.imu_rate_hz, "IMU", plan.setup.rig.imu_rate_hz, notes);
-  if (const auto rate = plan.setup.imu_rate_hz; rate && (*rate < kSlowImu || *rate > kFastImu)) {
-    notes.warn("rate of the IMU",
-               fmt::format("IMU of {:.3g} Hz by its stamps: are they in another unit than seconds "
-                           "(of a table: time_unit of its mapping), or are most of them lost?",
-                           *rate));
-  }
+  if (const auto rate = plan.setup.imu_rate_hz) warn_of_rate(*rate);
   decide_force_unit(plan);
   for (const std::string& type : unstamped_states()) {
     notes.push_back(fmt::format("{} has no stamp: record times are used", type));
@@ -219,6 +244,7 @@ void RecordingSurvey::warn_of_gyro(const RecordingPlan& plan) {
   const double turning = plan.turn_scale * median_norm(&ImuSample::angular_velocity);
   const double fastest = plan.turn_scale * largest_turn_rate_;
   constexpr std::size_t kLeast = 100;  // samples
+  constexpr double kFewBeyond = 0.01;  // of them
   if (first_samples_.size() >= kLeast && !changes(&ImuSample::angular_velocity) &&
       changes(&ImuSample::specific_force)) {
     const Eigen::Vector3d rate = first_samples_.front().angular_velocity;
@@ -227,7 +253,16 @@ void RecordingSurvey::warn_of_gyro(const RecordingPlan& plan) {
                             "the specific force changes: the gyro is off or not filled in",
                             rate.x(), rate.y(), rate.z(), first_samples_.size()));
   }
-  if (fastest > kMaxTurnRate || turning > kFastTurning) {
+  const auto beyond = std::ranges::count_if(first_samples_, [&](const ImuSample& each) {
+    return plan.turn_scale * each.angular_velocity.norm() > kMaxTurnRate;
+  });
+  const bool spikes = static_cast<double>(beyond) < kFewBeyond * std::ssize(first_samples_);
+  if (fastest > kMaxTurnRate && turning < kFastTurning && spikes) {
+    notes_.warn("gyroscope has spikes",
+                fmt::format("{} of the first {} samples of the gyro are beyond {:.0f} rad/s, up to "
+                            "{:.3g}, {:.3g} in the median: single samples are corrupt",
+                            beyond, first_samples_.size(), kMaxTurnRate, fastest, turning));
+  } else if (fastest > kMaxTurnRate || turning > kFastTurning) {
     notes_.warn("gyroscope perhaps in deg/s",
                 fmt::format("angular velocity up to {:.3g}, {:.3g} in the median: rad/s are "
                             "expected, are these deg/s? Then set recording.gyro_unit=deg/s (of a "
@@ -382,6 +417,14 @@ void RecordingSurvey::decide_frames(RecordingPlan& plan) {
       config_.lidar_frame.empty() ? seen(Role::kLidar).frame : config_.lidar_frame;
   const bool silent =
       !topics_.imu.empty() && topics_.imu != "none" && seen(Role::kImu).stamps.empty();
+  if (!topics_.lidar.empty() && is_world_frame(lidar)) {
+    notes_.warn("clouds are perhaps registered",
+                fmt::format("{}: its frame '{}' is by its name one of the world: clouds that "
+                            "another system has moved there are no scans; choose the LiDAR's own "
+                            "(topics.lidar), or name its frame (lidar_frame)",
+                            topics_.lidar, lidar),
+                WarnedSensor::kLidar);
+  }
   if (!topics_.lidar.empty() && !silent) {
     setup.rig.T_body_lidar =
         frames_.extrinsic(config_.T_imu_lidar, imu_frame(), lidar, "T_imu_lidar", notes_);

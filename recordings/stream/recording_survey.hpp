@@ -96,6 +96,7 @@ class RecordingSurvey {
   void decide_waits(RecordingPlan& plan) const;
   void decide_begin(RecordingPlan& plan);
   void warn_of_clocks(const RecordingPlan& plan, const std::string& reference, Duration latency);
+  void warn_of_true_clock(const RecordingPlan& plan);
   void warn_of(WarnedSensor sensor, std::size_t first);
   void warn_of_up(const RecordingSetup& setup);
   std::set<std::string> unstamped_states() const;
@@ -104,6 +105,8 @@ class RecordingSurvey {
   bool changes(Eigen::Vector3d ImuSample::*part) const;
   void warn_of_force(double force);
   void decide_force_unit(RecordingPlan& plan);
+  std::optional<double> imu_rate(const RecordingPlan& plan) const;
+  void warn_of_rate(double rate);
   void warn_of_gyro(const RecordingPlan& plan);
   std::optional<double> force_at_rest(const RecordingPlan& plan) const;
   void warn_of_gravity(const RecordingPlan& plan);

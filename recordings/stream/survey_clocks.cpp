@@ -306,6 +306,7 @@ void RecordingSurvey::decide_stamps(RecordingPlan& plan) {
       plan.latency[i] = latency_of(seen_[i], step);
     }
   }
+  warn_of_true_clock(plan);
   const auto& imu = plan.latency[static_cast<std::size_t>(Role::kImu)];
   const auto& lidar = plan.latency[static_cast<std::size_t>(Role::kLidar)];
   const std::optional<Duration> first = imu ? imu : lidar;
@@ -335,6 +336,22 @@ void RecordingSurvey::decide_begin(RecordingPlan& plan) {
       fmt::format("scans begin {:.1f} s after the IMU: the estimate begins {:.0f} s "
                   "before the first one",
                   to_seconds(alone), to_seconds(kStanding)));
+}
+
+/// Warns of a truth whose clock is not that of the sensors.
+void RecordingSurvey::warn_of_true_clock(const RecordingPlan& plan) {
+  constexpr Duration kMost = kSecond;  // of a motion capture's computers and links
+  const auto& truth = plan.latency[static_cast<std::size_t>(Role::kTruth)];
+  const auto& imu = plan.latency[static_cast<std::size_t>(Role::kImu)];
+  const auto& sensors = imu ? imu : plan.latency[static_cast<std::size_t>(Role::kLidar)];
+  if (!truth || !sensors || std::abs(*truth - *sensors) < kMost) return;
+  const double ahead = to_seconds(*sensors - *truth);
+  notes_.warn(
+      "clock of the truth differs",
+      fmt::format("{}: by its record times the truth is stamped {:.3f} s {} the sensors: "
+                  "scores compare other instants, or none; if its clock differs (GPS is "
+                  "18 s ahead of UTC), score with aims score --time-offset={:.3f}",
+                  topics_.truth, std::abs(ahead), ahead > 0.0 ? "ahead of" : "behind", ahead));
 }
 
 /// Warns of topics whose clock is not that of the reference.

@@ -55,7 +55,8 @@ bool may_be_joints(const BagConnection& c) { return is_joints(c) || is_state(c, 
 bool is_anything(const BagConnection&) { return true; }
 bool is_truth(const BagConnection& c) {
   return is_odometry(c) || c.type == "geometry_msgs/PoseStamped" ||
-         c.type == "geometry_msgs/PoseWithCovarianceStamped";
+         c.type == "geometry_msgs/PoseWithCovarianceStamped" ||
+         c.type == "geometry_msgs/TransformStamped" || c.type == "geometry_msgs/PointStamped";
 }
 /// Names of ground truth, and of the motion captures that measure it.
 bool is_called_truth(const BagConnection& c) {
@@ -249,13 +250,13 @@ struct Choice {
 };
 
 /// Poses that a topic's name says to be true are read only when asked for.
-void note_possible_truth(std::span<const BagConnection> connections,
-                         std::vector<std::string>& notes) {
-  for (const BagConnection& each : connections) {
-    if (!is_truth(each) || !is_called_truth(each) || each.messages == 0) continue;
-    notes.push_back(fmt::format(
-        "{} may be the truth and is not read: to score against it, recording.topics.truth={}",
-        each.topic, each.topic));
+void note_possible_truth(const Chooser& chooser, std::vector<std::string>& notes) {
+  for (const BagConnection& each : chooser.connections()) {
+    const bool possible = is_truth(each) && is_called_truth(each) && each.messages > 0;
+    if (!possible || each.topic == kTruthLidarTopic) continue;
+    notes.push_back(
+        fmt::format("{} may be the truth and is not read: to score against it, --topics truth={}",
+                    each.topic, each.topic));
   }
 }
 
@@ -276,15 +277,17 @@ Choice choice_of(const Chooser& chooser, const TopicsConfig& configured,
                                               kFootContactsTopic, may_be_contacts, notes));
   add_state(chooser, configured, topics);
   if (!configured.truth.empty() && configured.truth != kNone) {
-    const Request truth = {"truth", "nav_msgs/Odometry or geometry_msgs/PoseStamped", is_truth};
+    const Request truth = {
+        "truth",
+        "nav_msgs/Odometry or PoseStamped, PoseWithCovarianceStamped, TransformStamped or "
+        "PointStamped of geometry_msgs (poses of tf: aims score --truth "
+        "RECORDING:/tf:PARENT,CHILD)",
+        is_truth};
     choice.keep(topics.truth, chooser.requested(truth, configured.truth));
   } else if (configured.truth.empty()) {
     const BagConnection* known = chooser.find(kTruthImuTopic);
-    if (known != nullptr && is_truth(*known)) {
-      topics.truth = known->topic;
-    } else {
-      note_possible_truth(chooser.connections(), notes);
-    }
+    if (known != nullptr && is_truth(*known)) topics.truth = known->topic;
+    if (topics.truth.empty()) note_possible_truth(chooser, notes);
   }
   return choice;
 }

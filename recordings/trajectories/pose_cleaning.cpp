@@ -189,4 +189,37 @@ std::string unusable_text(const Trajectory& poses) {
   return text_of(counts);
 }
 
+std::string leaps_text(const Trajectory& truth) {
+  constexpr double kLeast = 0.3;         // [m]
+  constexpr double kFastest = 15.0;      // [m/s]
+  constexpr Duration kFrozen = kSecond;  // without any motion
+  int leaps = 0;
+  double largest = 0.0;
+  Time at = 0, since = 0;
+  Duration frozen = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const Eigen::Vector3d moved =
+        i == 0 ? Eigen::Vector3d::Zero().eval()
+               : (truth[i].pose.translation - truth[i - 1].pose.translation).eval();
+    const bool moves = i == 0 || !moved.head<2>().isZero(0.0);
+    const double step = i == 0 ? 0.0 : to_seconds(truth[i].stamp - truth[i - 1].stamp);
+    if (moved.norm() > kLeast && moved.norm() > kFastest * step) {
+      ++leaps;
+      if (moved.norm() > largest) {
+        at = truth[i].stamp;
+        frozen = truth[i - 1].stamp - since;
+      }
+      largest = std::max(largest, moved.norm());
+    }
+    if (moves) since = truth[i].stamp;
+  }
+  if (leaps == 0) return "";
+  return fmt::format(
+      "positions jump {} times from one pose to the next, by up to {:.2f} m ({:.1f} "
+      "s after its start{}): no robot moves so, and scores behind it are wrong",
+      leaps, largest, to_seconds(at - truth.front().stamp),
+      frozen > kFrozen ? fmt::format(", after they stood still for {:.1f} s", to_seconds(frozen))
+                       : "");
+}
+
 }  // namespace aims

@@ -19,6 +19,10 @@ void normalize_rounded(Trajectory& poses, const std::string& name, std::vector<s
 /// that a motion capture had lost (or not found yet); notes how many of each.
 void drop_unusable(Trajectory& poses, const std::string& name, std::vector<std::string>& notes);
 
+/// "the positions jump ..." where a truth moves as no robot does, as after a motion capture froze;
+/// else empty.
+std::string leaps_text(const Trajectory& truth);
+
 /// "2 not finite, 1 stamped not after the one before"; empty where all poses are usable.
 std::string unusable_text(const Trajectory& poses);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace aims {
@@ -28,6 +29,7 @@ Heading heading_of(std::string_view cell) {
   }
   const auto lower = [](unsigned char c) { return static_cast<char>(std::tolower(c)); };
   std::ranges::transform(heading.name, heading.name.begin(), lower);
+  std::ranges::replace(heading.name, '/', '.');  // as PlotJuggler writes fields
   std::ranges::transform(heading.unit, heading.unit.begin(), lower);
   while (!heading.name.empty() && heading.name.back() == ' ') heading.name.pop_back();
   const std::size_t last = heading.name.rfind('_');
@@ -41,7 +43,38 @@ Heading heading_of(std::string_view cell) {
   return heading;
 }
 
-std::string last_part(const std::string& name) { return name.substr(name.rfind('.') + 1); }
+/// What is behind the last point, without underscores in front.
+std::string last_part(const std::string& name) {
+  const std::string part = name.substr(name.rfind('.') + 1);
+  return part.substr(std::min(part.find_first_not_of('_'), part.size()));
+}
+
+enum class Quantity { kUnknown, kPose, kMotion };
+
+Quantity quantity_of_word(std::string_view word) {
+  if (is_one_of(word, {"vel", "acc", "v", "gyro", "omega", "linear", "angular", "twist"}) ||
+      word.starts_with("veloc") || word.starts_with("accel")) {
+    return Quantity::kMotion;
+  }
+  const bool pose = is_one_of(word, {"p", "pos", "position", "positions", "translation", "q",
+                                     "quat", "quaternion", "orientation", "rotation"});
+  return pose ? Quantity::kPose : Quantity::kUnknown;
+}
+
+/// What a column holds, by the last word of its name that tells, or its unit.
+Quantity quantity_of(const Heading& heading) {
+  if (heading.unit.find("/s") != std::string::npos) return Quantity::kMotion;
+  const auto is_letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  std::string_view name = heading.name;
+  while (!name.empty()) {
+    std::size_t begin = name.size();
+    while (begin > 0 && is_letter(name[begin - 1])) --begin;
+    const Quantity found = quantity_of_word(name.substr(begin));
+    if (found != Quantity::kUnknown) return found;
+    name = name.substr(0, begin > 0 ? begin - 1 : 0);
+  }
+  return Quantity::kUnknown;
+}
 
 bool is_stamp(const Heading& heading) {
   const std::string name = last_part(heading.name);
@@ -58,7 +91,7 @@ StampUnit unit_of(const Heading& heading) {
   if (is_one_of(heading.unit, {"ns", "nsec"})) return StampUnit::kNanoseconds;
   if (heading.unit == "us") return StampUnit::kMicroseconds;
   if (heading.unit == "ms") return StampUnit::kMilliseconds;
-  if (is_one_of(heading.unit, {"s", "sec"})) return StampUnit::kSeconds;
+  if (is_one_of(heading.unit, {"s", "sec", "seconds"})) return StampUnit::kSeconds;
   return StampUnit::kByDigits;
 }
 
@@ -75,22 +108,52 @@ bool is_component(const std::string& name, char component, bool of_quaternion) {
   return apart || is_one_of(before, {"t", "p", "q", "pos", "quat"});
 }
 
-std::optional<std::size_t> column_of(const std::vector<Heading>& headings, char component,
-                                     bool of_quaternion) {
-  for (std::size_t i = 0; i < headings.size(); ++i) {
-    if (is_component(headings[i].name, component, of_quaternion)) return i;
+/// The first column that a pose may have by `fits`, one that is named as of a pose in front of
+/// others; never one of a motion.
+template <typename Fits>
+std::optional<std::size_t> pose_column(const std::vector<Heading>& headings, const Fits& fits) {
+  for (const Quantity wanted : {Quantity::kPose, Quantity::kUnknown}) {
+    for (std::size_t i = 0; i < headings.size(); ++i) {
+      if (fits(headings[i].name) && quantity_of(headings[i]) == wanted) return i;
+    }
   }
   return std::nullopt;
 }
 
-/// `rostopic echo -p` has the record time in front of the stamp of the header.
+std::optional<std::size_t> column_of(const std::vector<Heading>& headings, char component,
+                                     bool of_quaternion) {
+  return pose_column(headings, [&](const std::string& name) {
+    return is_component(name, component, of_quaternion);
+  });
+}
+
+/// Whether the name is of a header's stamp, or its seconds.
+bool is_header_stamp(const std::string& name) {
+  const std::size_t found = name.rfind("header.stamp");
+  if (found == std::string::npos) return false;
+  return is_one_of(name.substr(found), {"header.stamp", "header.stamp.sec", "header.stamp.secs"});
+}
+
+/// `rostopic echo -p` and PlotJuggler have the record time in front of the stamp of the header.
 std::optional<std::size_t> stamp_column(const std::vector<Heading>& headings) {
   std::optional<std::size_t> found;
   for (std::size_t i = 0; i < headings.size(); ++i) {
-    if (headings[i].name.ends_with("header.stamp")) return i;
+    if (is_header_stamp(headings[i].name)) return i;
     if (!found && is_stamp(headings[i])) found = i;
   }
   return found;
+}
+
+/// The column of nanoseconds beside that of seconds, if it is one.
+std::optional<std::size_t> nanoseconds_column(const std::vector<Heading>& headings,
+                                              std::size_t seconds) {
+  const auto group = [](const std::string& name) { return name.substr(0, name.rfind('.') + 1); };
+  const Heading& stamp = headings[seconds];
+  if (!is_one_of(last_part(stamp.name), {"sec", "secs", "seconds"})) return std::nullopt;
+  for (std::size_t i = 0; i < headings.size(); ++i) {
+    if (is_nanoseconds(headings[i]) && group(headings[i].name) == group(stamp.name)) return i;
+  }
+  return std::nullopt;
 }
 
 /// With roll, pitch and yaw where the header names all three.
@@ -98,8 +161,9 @@ PoseColumns with_angles(const std::vector<Heading>& headings, PoseColumns column
   constexpr std::array<std::string_view, 3> kNames = {"roll", "pitch", "yaw"};
   std::array<std::size_t, 3> angles{};
   for (std::size_t i = 0; i < kNames.size(); ++i) {
-    const auto found = std::ranges::find_if(
-        headings, [&](const Heading& each) { return last_part(each.name) == kNames[i]; });
+    const auto found = std::ranges::find_if(headings, [&](const Heading& each) {
+      return last_part(each.name) == kNames[i] && quantity_of(each) != Quantity::kMotion;
+    });
     if (found == headings.end()) return columns;
     angles[i] = static_cast<std::size_t>(found - headings.begin());
     columns.rpy_in_degrees = columns.rpy_in_degrees || is_one_of(found->unit, {"deg", "degrees"});
@@ -120,11 +184,10 @@ void set_position(const std::vector<Heading>& headings, std::size_t axis, std::s
 /// Whether a name, or what is behind its last underscore, is a direction.
 std::optional<std::size_t> direction_column(const std::vector<Heading>& headings,
                                             std::initializer_list<std::string_view> names) {
-  for (std::size_t i = 0; i < headings.size(); ++i) {
-    const std::string part = last_part(headings[i].name);
-    if (is_one_of(part, names) || is_one_of(part.substr(part.rfind('_') + 1), names)) return i;
-  }
-  return std::nullopt;
+  return pose_column(headings, [&](const std::string& name) {
+    const std::string part = last_part(name);
+    return is_one_of(part, names) || is_one_of(part.substr(part.rfind('_') + 1), names);
+  });
 }
 
 /// The columns of x, y and z, else of east, north, and up or down; false without.
@@ -169,10 +232,7 @@ std::optional<PoseColumns> named_columns(std::span<const std::string_view> heade
   PoseColumns columns;
   columns.stamp = *stamp;
   columns.unit = unit_of(headings[*stamp]);
-  const auto nanoseconds = std::ranges::find_if(headings, is_nanoseconds);
-  if (nanoseconds != headings.end()) {
-    columns.nanoseconds = static_cast<std::size_t>(nanoseconds - headings.begin());
-  }
+  columns.nanoseconds = nanoseconds_column(headings, *stamp);
   // Axes of attitudes beside a position that points down are of no one convention.
   if (!find_position(headings, columns)) return std::nullopt;
   if (columns.is_down) return columns;
@@ -191,6 +251,22 @@ bool names_degrees(std::span<const std::string_view> header) {
     const std::string name = last_part(heading_of(cell).name);
     return is_one_of(name, {"lat", "latitude", "lon", "lng", "long", "longitude"});
   });
+}
+
+bool names_motion(std::span<const std::string_view> header) {
+  constexpr std::size_t kStamp = 1, kPosition = 3;
+  if (header.size() < kStamp + kPosition) return false;
+  return std::ranges::all_of(header.subspan(kStamp, kPosition), [](std::string_view cell) {
+    return quantity_of(heading_of(cell)) == Quantity::kMotion;
+  });
+}
+
+PoseColumns with_y_up(PoseColumns columns) {
+  std::swap(columns.position[1], columns.position[2]);
+  if (columns.quaternion_xyzw)
+    std::swap((*columns.quaternion_xyzw)[1], (*columns.quaternion_xyzw)[2]);
+  columns.y_is_up = true;
+  return columns;
 }
 
 PoseColumns ordered_columns(std::size_t columns, bool w_first) {

@@ -19,6 +19,7 @@ struct PoseColumns {
   StampUnit unit = StampUnit::kByDigits;
   std::array<std::size_t, 3> position = {1, 2, 3};
   bool is_down = false;       ///< the third of the position points down, and attitudes are not read
+  bool y_is_up = false;       ///< the second of position and quaternion is the negative third
   int position_decimals = 0;  ///< by which their unit lies below metres: of cm 2, of mm 3
   std::optional<std::array<std::size_t, 4>> quaternion_xyzw;
   std::optional<std::array<std::size_t, 3>> rpy;  ///< in place of the quaternion
@@ -31,14 +32,21 @@ struct PoseColumns {
   std::size_t least() const;
 };
 
-/// The columns that a header names, as TUM, EuRoC, the Newer College ("sec,nsec,x,..."), and
-/// `rostopic echo -p` ("field.pose.pose.position.x") write them; nothing where it names no stamp or
-/// no position. The first column of a name counts. Without x, y, z: east, north, up or down, in any
-/// order.
+/// The columns that a header names, as TUM, EuRoC, the Newer College ("sec,nsec,x,..."),
+/// `rostopic echo -p` ("field.pose.pose.position.x") and PlotJuggler ("/odom/pose/position/x")
+/// write them; nothing where it names no stamp or no position. The first column of a name counts,
+/// one of a position before others, and none of a velocity or acceleration. Without x, y, z: east,
+/// north, up or down, in any order.
 std::optional<PoseColumns> named_columns(std::span<const std::string_view> header);
 
 /// Whether the header names a latitude or longitude, which are no positions in metres.
 bool names_degrees(std::span<const std::string_view> header);
+
+/// Whether the columns behind the first are named as velocities or accelerations.
+bool names_motion(std::span<const std::string_view> header);
+
+/// The columns of a world and a body with y up, as of one with z up.
+PoseColumns with_y_up(PoseColumns columns);
 
 /// The columns of a table without names: stamp, position, and from 8 columns on the quaternion; of
 /// 13 or 17 columns stamp and matrix, as of MulRan.

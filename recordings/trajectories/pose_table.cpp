@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/files/number_lines.hpp"
+#include "recordings/trajectories/motive_header.hpp"
 #include "recordings/trajectories/pose_columns.hpp"
 
 namespace aims {
@@ -146,6 +147,7 @@ struct RowLayout {
   }
 
   static std::string negated(const std::string& number) {
+    if (number == "nan") return number;
     if (number.starts_with('-')) return number.substr(1);
     return '-' + number.substr(number.starts_with('+') ? 1 : 0);
   }
@@ -201,11 +203,14 @@ struct RowLayout {
     if (columns.matrix) return text + matrix_text(cells) + '\n';
     for (std::size_t i = 0; i < 3; ++i) {
       std::string axis = number(cells[columns.position[i]]);
-      if (i == 2 && columns.is_down) axis = negated(axis);
+      if (i == 2 ? columns.is_down : i == 1 && columns.y_is_up) axis = negated(axis);
       text += ' ' + stamp_in_seconds(axis, columns.position_decimals);
     }
     if (columns.quaternion_xyzw) {
-      for (const std::size_t each : *columns.quaternion_xyzw) text += ' ' + number(cells[each]);
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::string part = number(cells[(*columns.quaternion_xyzw)[i]]);
+        text += ' ' + (i == 1 && columns.y_is_up ? negated(part) : part);
+      }
     } else if (columns.rpy) {
       text += angles_text(cells);
     }
@@ -253,6 +258,7 @@ class TableReader {
     line = without_comment(line);
     const char separator = layout_ ? layout_->separator : separator_of(line);
     const auto cells = cells_of(line, separator);
+    if (!layout_ && motive_.take(cells)) return take_motive();
     const std::size_t stamp = named_ ? named_->stamp : 0;
     const bool names = cells.size() >= std::max(kPositionColumns, stamp + 1) &&
                        !is_number_with_comma(cells[stamp]);
@@ -285,6 +291,19 @@ class TableReader {
     return std::ranges::count_if(cells, is_number_with_comma) >= 3;
   }
 
+  /// The columns of an export of Motive, whose worlds have y up.
+  std::string take_motive() {
+    const std::vector<std::string_view> names(motive_.names().begin(), motive_.names().end());
+    named_ = named_columns(names);
+    header_size_ = names.size();
+    if (named_) {
+      named_ = with_y_up(*named_);
+      notes_.push_back(
+          fmt::format("{}: export of Motive: its first rigid body is read, y taken as up", name_));
+    }
+    return "\n";
+  }
+
   /// The names of the columns, each with its unit.
   void take_header(std::vector<std::string_view> cells, bool comment) {
     std::vector<std::string_view> names;
@@ -299,6 +318,7 @@ class TableReader {
     }
     named_ = named_columns(names);
     in_degrees_ = in_degrees_ || names_degrees(names);
+    in_motion_ = names_motion(names);
     if (!named_ && comment) return;
     of_comment_ = comment;
     header_size_ = names.size();
@@ -317,6 +337,11 @@ class TableReader {
           fmt::format("{}:{}: expected positions in metres, found latitude and "
                       "longitude: convert them to a local frame (ENU, UTM)",
                       name_, number_));
+    }
+    if (in_motion_ && !named_) {
+      return failure(fmt::format(
+          "{}:{}: expected columns of a position (x, y, z), found velocities or accelerations",
+          name_, number_));
     }
     if (is_other_header(cells)) {
       notes_.push_back(
@@ -379,6 +404,8 @@ class TableReader {
   std::size_t header_size_ = 0;  ///< columns that it names
   bool of_comment_ = false;      ///< the header is a comment
   bool in_degrees_ = false;      ///< the header names latitude or longitude
+  bool in_motion_ = false;       ///< the header names velocities where positions are expected
+  MotiveHeader motive_;
   std::optional<RowLayout> layout_;
   int number_ = 0;
 };

@@ -106,6 +106,9 @@ Result<TrajectoryFile> read_text(const fs::path& file, const TrajectoryFileOptio
   const auto text = read_text_file(file);
   if (!text) return tl::unexpected(text.error());
   const std::string name = file.string();
+  if (const std::string_view foreign = foreign_content(*text); !foreign.empty()) {
+    return failure(fmt::format("{}: {}", name, foreign));
+  }
   TrajectoryFile result;
   result.file = file;
   const bool table = is_pose_table(*text);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -90,6 +91,37 @@ TEST(LegCheck, AnAccelerometerThatTheLegsContradictIsNamed) {
   expect_named({.of_foot = mirrored}, "x of the accelerometer, or the joints");
   const auto small = [](StandingFoot& foot) { foot.velocity *= 0.4; };
   expect_named({.of_foot = small}, "the lengths (leg_geometry), the zero or the unit");
+}
+
+/// Of a robot that stands, walks straight ahead for some 11 s and stands, by a foot in front
+/// and one behind; `sign`: of what the feet do.
+std::vector<ReadingWarning> warnings_of_straight_walk(double sign) {
+  LegCheck check(kLegs);
+  for (int i = 0; i < 1500; ++i) {
+    const double phase = 0.01 * i;  // [s]
+    const double speed = 0.5 * std::clamp(std::min(phase - 2.0, 14.0 - phase), 0.0, 1.0);
+    const double force = phase > 2.0 && phase < 3.0     ? 0.5
+                         : phase > 13.0 && phase < 14.0 ? -0.5
+                                                        : 0.0;
+    ImuSample imu;
+    imu.stamp = i * 10 * kMillisecond;
+    imu.specific_force = Eigen::Vector3d(force, 0.0, 9.81);
+    check.add_imu(imu, Eigen::Vector3d::Zero());
+    const Eigen::Vector3d velocity(sign * speed, 0.0, 0.0);
+    std::vector<StandingFoot> feet;
+    for (const int leg : {0, 3}) {
+      feet.push_back({leg, foot_in_base(leg, {0.0, 0.8, -1.6}, kLegs), -velocity});
+    }
+    check.add_feet(feet, velocity);
+  }
+  return check.warnings();
+}
+
+TEST(LegCheck, LegsThatWalkBackwardsAreNamedByStartsAndStops) {
+  EXPECT_EQ(text_of(warnings_of_straight_walk(1.0)), "");
+  EXPECT_NE(text_of(warnings_of_straight_walk(-1.0)).find("in 2 of 2 starts and stops"),
+            std::string::npos)
+      << text_of(warnings_of_straight_walk(-1.0));
 }
 
 TEST(LegCheck, FeetOnWhichNoRobotWalksAreNamed) {

@@ -92,6 +92,34 @@ TEST(LegStream, KeepsTheLastVelocityWithoutContacts) {
   EXPECT_EQ(counts, (EventCounts{{"legs_no_contact", 1}}));
 }
 
+TEST(LegStream, ARobotThatIsCarriedHasNoLegOdometry) {
+  LegStream legs(kinematic());
+  EventCounts counts;
+  legs.add_imu(at_rest(0));
+  const auto at = [&](Time stamp, std::array<bool, kLegCount> contact) {
+    legs.add_contacts({stamp, contact}, counts);
+    return legs.add_joints(striding(stamp), counts);
+  };
+  const auto standing = at(10 * kMillisecond, {true, false, false, true});
+  ASSERT_TRUE(standing);
+  for (int i = 1; i <= 50; ++i) EXPECT_TRUE(at(standing->stamp + i * 10 * kMillisecond, {})) << i;
+  for (int i = 51; i < 500; ++i) EXPECT_FALSE(at(standing->stamp + i * 10 * kMillisecond, {})) << i;
+  EXPECT_EQ(counts["legs_in_the_air"], 449);
+  const auto down = at(standing->stamp + 5 * kSecond, {true, true, true, true});
+  ASSERT_TRUE(down);
+  EXPECT_LT(down->T_odom_base.translation.x(), 0.6 * standing->linear_velocity.x());
+}
+
+TEST(LegStream, LegsWithoutAnyContactStay) {
+  LegStream legs(kinematic());  // the sensors of the feet are dead: others may do without them
+  EventCounts counts;
+  legs.add_imu(at_rest(0));
+  for (Time stamp = kMillisecond; stamp < 2 * kSecond; stamp += 10 * kMillisecond) {
+    legs.add_contacts({stamp, {}}, counts);
+    EXPECT_TRUE(legs.add_joints(striding(stamp), counts));
+  }
+}
+
 TEST(LegStream, OldContactsAreNotUsed) {
   LegStream legs(kinematic());
   EventCounts counts;
@@ -176,6 +204,34 @@ TEST(LegStream, ImplausibleTwistsAreNotIntegrated) {
   sample.stamp = 30 * kMillisecond;
   sample.angular_velocity.z() = 0.0;
   EXPECT_NEAR(legs.add_twist(sample).T_odom_base.translation.x(), 0.01, 1e-12);
+}
+
+/// What is said of a twist of `factor` times the velocity and the turn rate of the pose.
+std::string contradiction_of(double of_velocity, double of_turning) {
+  LegStream legs({});
+  EventCounts counts;
+  for (int i = 0; i < 1000; ++i) {
+    const double yaw = 0.003 * i;
+    LegOdometrySample sample;
+    sample.stamp = i * 10 * kMillisecond;
+    sample.T_odom_base = {yaw_rotation(yaw), {2.0 * std::sin(yaw), 2.0 - 2.0 * std::cos(yaw), 0.0}};
+    sample.linear_velocity = {of_velocity * 0.6, 0.0, 0.0};
+    sample.angular_velocity = {0.0, 0.0, of_turning * 0.3};
+    legs.add_odometry(sample, counts);
+  }
+  const auto found = legs.warnings();
+  return found.empty() ? "" : found.front().text;
+}
+
+TEST(LegStream, ATwistThatContradictsThePoseIsNamed) {
+  EXPECT_EQ(contradiction_of(1.0, 1.0), "");
+  EXPECT_EQ(contradiction_of(1.2, 1.0), "") << "slip";
+  const std::string backwards = contradiction_of(-1.0, 1.0);
+  EXPECT_NE(backwards.find("its mean velocity in axes of the base is (0.59, 0.09, 0.00) m/s by its "
+                           "pose and (-0.59, -0.09, 0.00) by its twist"),
+            std::string::npos)
+      << backwards;
+  EXPECT_NE(contradiction_of(1.0, 57.3).find("it turns by "), std::string::npos);
 }
 
 /// Seconds counted as of a twist in the wrong axes, on a walk along a curve.

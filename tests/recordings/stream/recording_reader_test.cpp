@@ -57,7 +57,7 @@ TEST_F(RecordingReaderTest, ATruthUnderAnotherNameIsNotReadAndNamed) {
   robot.close();
   EXPECT_TRUE(test::read_recording(bag()).noted(
       "/mocap/odom may be the truth and is not read: to score against it, "
-      "recording.topics.truth=/mocap/odom"));
+      "--topics truth=/mocap/odom"));
   RecordingConfig config;
   config.topics.truth = "none";
   EXPECT_FALSE(test::read_recording(bag(), config).noted("may be the truth"));

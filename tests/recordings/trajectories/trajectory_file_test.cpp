@@ -12,6 +12,7 @@
 #include "recordings/messages/message_encoding.hpp"
 #include "recordings/messages/message_types.hpp"
 #include "recordings/trajectories/bag_trajectory.hpp"
+#include "recordings/trajectories/pose_cleaning.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {
@@ -270,6 +271,55 @@ TEST_F(TrajectoryFiles, ColumnsAreFoundByTheirNames) {
   }
 }
 
+TEST_F(TrajectoryFiles, VelocitiesAreNoPositions) {
+  const std::string values = ",9,8,7,6,5,4,3,1,2,-3,0,0,0.6,0.8\n";
+  for (const std::string& names :
+       {std::string("timestamp,vel_x,vel_y,vel_z,acc_w,acc_x,acc_y,acc_z,pos_x,pos_y,pos_z,qx,qy,"
+                    "qz,qw\n1700000001.005"),
+        std::string("__time,/odom/twist/twist/linear/x,/odom/twist/twist/linear/y,"
+                    "/odom/twist/twist/linear/z,/imu/angular_velocity/w,/imu/angular_velocity/x,"
+                    "/imu/angular_velocity/y,/imu/angular_velocity/z,/odom/pose/pose/position/x,"
+                    "/odom/pose/pose/position/y,/odom/pose/pose/position/z,"
+                    "/odom/pose/pose/orientation/x,/odom/pose/pose/orientation/y,"
+                    "/odom/pose/pose/orientation/z,/odom/pose/pose/orientation/w\n1700000001.005"),
+        std::string("__time,/o/header/stamp/sec,/o/header/stamp/nanosec,a,b,c,d,e,"
+                    "/o/pose/position/x,/o/pose/position/y,/o/pose/position/z,"
+                    "/o/pose/orientation/x,/o/pose/orientation/y,/o/pose/orientation/z,"
+                    "/o/pose/orientation/w\n1800000000,1700000001,5000000"),
+        std::string("t,vx [m/s],vy [m/s],vz [m/s],w,x [m/s],y [m/s],z [m/s],x [m],y [m],z [m],qx,"
+                    "qy,qz,qw\n1700000001.005")}) {
+    const bool stamps = names.starts_with("__time,/o/");
+    const auto read = read_trajectory(file("v.csv", names + values.substr(stamps ? 4 : 0)), {});
+    ASSERT_TRUE(read) << names << read.error().message;
+    ASSERT_EQ(read->trajectory.size(), 1U) << names;
+    EXPECT_EQ(read->trajectory[0].stamp, 1700000001005000000) << names;
+    EXPECT_EQ(read->trajectory[0].pose.translation, Eigen::Vector3d(1, 2, -3)) << names;
+    EXPECT_NEAR(read->trajectory[0].pose.rotation.z(), 0.6, 1e-15) << names;
+  }
+  EXPECT_NE(message_of(file("v.csv", "t,linear.x,linear.y,linear.z\n1,2,3,4\n"))
+                .find("expected columns of a position (x, y, z), found velocities"),
+            std::string::npos);
+}
+
+TEST_F(TrajectoryFiles, MotivesPositionsStandBehindItsRotations) {
+  const std::string groups = ",,Rotation,Rotation,Rotation,Rotation,Position,Position,Position\n";
+  const std::string row = "Frame,Time (Seconds),X,Y,Z,W,X,Y,Z\n0,1.5,0,0.6,0,0.8,";
+  const std::string begin =
+      "Format Version,1.23,Capture Frame Rate,120.0,Export Frame Rate,120.0,Rotation Type,"
+      "Quaternion,Length Units,Millimeters\n\n,,Rigid Body,Rigid Body,Rigid Body,Rigid Body,Rigid "
+      "Body,Rigid Body,Rigid Body\n";
+  for (const std::string& text :
+       {begin + groups + row + "1000,-3000,-2000\n", groups + row + "1,-3,-2\n"}) {
+    const auto read = read_trajectory(file("m.csv", text + "1,2.5,,,,,,,\n"), {});
+    ASSERT_TRUE(read) << text << read.error().message;
+    ASSERT_EQ(read->trajectory.size(), 1U) << text;
+    EXPECT_EQ(read->trajectory[0].stamp, 1500 * kMillisecond);
+    EXPECT_EQ(read->trajectory[0].pose.translation, Eigen::Vector3d(1, 2, -3)) << text;
+    EXPECT_NEAR(read->trajectory[0].pose.rotation.z(), 0.6, 1e-15) << text;
+    EXPECT_NE(read->notes.at(0).find("export of Motive"), std::string::npos);
+  }
+}
+
 /// The text in UTF-16 with a byte order mark.
 std::string utf16(const std::string& text, bool little) {
   std::string bytes = little ? "\xff\xfe" : "\xfe\xff";
@@ -396,6 +446,26 @@ TEST_F(TrajectoryFiles, APoseBeforeTheBodyIsFoundIsLeftOutToo) {
   EXPECT_EQ(read_trajectory(file("odom.tum", started), {})->trajectory.size(), 50U);
 }
 
+TEST(PoseCleaning, LeapsOfATruthAreTold) {
+  const auto text_of = [](double jump, bool frozen) {
+    Trajectory truth;
+    for (int i = 0; i < 100; ++i) {
+      const bool still = frozen && i >= 20 && i < 60;
+      const double x = 0.05 * (still ? 20 : i) + (i >= 60 ? jump : 0.0);
+      truth.push_back({i * kSecond / 20, {Eigen::Quaterniond::Identity(), {x, 0.0, 0.0}}});
+    }
+    return leaps_text(truth);
+  };
+  EXPECT_EQ(text_of(0.0, false), "");
+  EXPECT_NE(text_of(5.0, false)
+                .find("jump 1 times from one pose to the next, by up to 5.05 m (3.0 "
+                      "s after its start)"),
+            std::string::npos)
+      << text_of(5.0, false);
+  EXPECT_NE(text_of(0.0, true).find("after they stood still for 2.0 s"), std::string::npos)
+      << text_of(0.0, true);
+}
+
 TEST_F(TrajectoryFiles, DirectionsOfTheCompassAreColumns) {
   for (const char* text :
        {"t,north,east,down\n1.5,2,1,3\n", "# t n e d\n1.5 2 1 3\n",
@@ -470,6 +540,18 @@ TEST_F(TrajectoryFiles, EmptyCellsAreNoPosition) {
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->trajectory.size(), 2U);
   EXPECT_NE(read->notes.back().find("1 of 3 poses dropped: 1 not finite"), std::string::npos);
+}
+
+TEST_F(TrajectoryFiles, WhatIsNoTrajectoryIsNamedAsWhatItIs) {
+  const std::string tar = std::string(257, 'a') + "ustar" + std::string(300, '\0');
+  for (const char* name : {"x.tum", "x.bag", "x.mcap"}) {
+    EXPECT_NE(message_of(file(name, "\n<!DOCTYPE html><html>\n")).find("is a web page"),
+              std::string::npos);
+    EXPECT_NE(message_of(file(name, "version https://git-lfs.github.com/spec/v1\nsize 1\n"))
+                  .find("pointer of Git LFS"),
+              std::string::npos);
+    EXPECT_NE(message_of(file(name, tar)).find("unpack it with tar"), std::string::npos);
+  }
 }
 
 TEST_F(TrajectoryFiles, APipeIsRefusedAtOnce) {
