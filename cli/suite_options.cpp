@@ -100,7 +100,7 @@ void print_outcome(const Suite& suite, const SharedOptions& options) {
             cached ? "sequences from the cache"
                    : fmt::format("{} sequences simulated", suite.run.sequences));
   print_pruned(suite.run.pruned, options);
-  for (const RunFailure& each : suite.failures) print_out("FAILED: {}\n", text_of(each));
+  for (const RunFailure& each : joined(suite.failures)) print_out("FAILED: {}\n", text_of(each));
   print_invalid(suite);
   if (!suite.complete) print_out("interrupted: the same command continues\n");
 }

@@ -56,8 +56,7 @@ std::string markdown_of(const SeedRuns& seeds) {
   }
   if (failures.empty()) return text;
   text += "\n## Failures\n\n";
-  for (const RunFailure& each : failures) text += markdown_item(each);
-  return text;
+  return text + markdown_list(failures);
 }
 
 /// The table of scores with a row per failure.

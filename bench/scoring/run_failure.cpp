@@ -35,6 +35,26 @@ std::string markdown_item(const RunFailure& failure) {
                      markdown_text(line_text(failure.message.substr(0, end))));
 }
 
+std::vector<RunFailure> joined(std::span<const RunFailure> failures) {
+  std::vector<RunFailure> result;
+  for (const RunFailure& each : failures) {
+    const bool same = !result.empty() && result.back().scenario == each.scenario &&
+                      result.back().seed == each.seed && result.back().message == each.message;
+    if (same) {
+      result.back().estimator += ", " + each.estimator;
+    } else {
+      result.push_back(each);
+    }
+  }
+  return result;
+}
+
+std::string markdown_list(std::span<const RunFailure> failures) {
+  std::string text;
+  for (const RunFailure& each : joined(failures)) text += markdown_item(each);
+  return text;
+}
+
 Json failures_json(std::span<const RunFailure> failures) {
   Json list = Json::array();
   for (const RunFailure& each : failures) {

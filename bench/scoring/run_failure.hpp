@@ -24,6 +24,12 @@ std::string text_of(const RunFailure& failure);
 /// The same on one line, with the first line of the message, as an item of a Markdown list.
 std::string markdown_item(const RunFailure& failure);
 
+/// With those of one run and one message in one, whose `estimator` has all their labels.
+std::vector<RunFailure> joined(std::span<const RunFailure> failures);
+
+/// Those joined, as items of a Markdown list.
+std::string markdown_list(std::span<const RunFailure> failures);
+
 /// Scenario, seed, estimator and message of each.
 Json failures_json(std::span<const RunFailure> failures);
 

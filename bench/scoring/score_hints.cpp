@@ -220,8 +220,7 @@ std::optional<std::string> world_hint(const Trajectory& estimate, const Trajecto
   for (PosePair& each : mirrored) each.truth.translation.y() *= -1.0;
   if (config.truth != TruthContent::kPosition && fits(inverse, enough)) {
     return "positions fit ten times better with the inverse of the truth's poses: expected those "
-           "of "
-           "the body in the world, in truth and estimate";
+           "of the body in the world, in truth and estimate";
   }
   if (!fits(mirrored, enough)) return std::nullopt;
   return "positions fit ten times better with one axis mirrored: one world is left-handed, "
@@ -252,8 +251,7 @@ std::optional<std::string> body_frame_hint(const Trajectory& estimate, const Tra
       "its body frame is turned by {} against the truth's: --extrinsic '{}' takes it to the "
       "truth's "
       "(the ATE aligned by heading does not depend on it; heading error, RPE and ATE from the "
-      "start "
-      "do)",
+      "start do)",
       turn_text(turn), extrinsic_text(option));
 }
 

@@ -56,8 +56,7 @@ std::string markdown_of(const Ablation& ablation, const Suite& suite) {
     text += fmt::format("- `{}`: `{}`\n", each.label, each.changes);
   }
   for (const std::string& line : left_out_lines(suite)) text += fmt::format("- {}\n", line);
-  for (const RunFailure& each : suite.failures) text += markdown_item(each);
-  return text;
+  return text + markdown_list(suite.failures);
 }
 
 CsvTable csv_of(const Ablation& ablation) {

@@ -37,8 +37,7 @@ std::string markdown_of(const ConsistencyStudy& study, const Suite& suite) {
   text +=
       "\n## At the end\n\nRoot mean squares over seeds [m].\n\n" + to_markdown(end_table(study));
   for (const std::string& line : left_out_lines(suite)) text += fmt::format("\n- {}\n", line);
-  for (const RunFailure& each : suite.failures) text += markdown_item(each);
-  return text;
+  return text + markdown_list(suite.failures);
 }
 
 CsvTable csv_of(const ConsistencyStudy& study) {

@@ -41,9 +41,9 @@ FamilyPoint point_of(const SuiteCase& each, const std::string& estimator) {
   point.ate_interval = median_interval(each.runs, estimator, "ate_yaw_m");
   point.m_list = statistics_of(each.runs, estimator, "m_list_percent.all").median;
   point.m_list_interval = median_interval(each.runs, estimator, "m_list_percent.all");
-  point.runs = finished(each.runs, estimator);
-  if (point.runs == 0) return point;
   const SuccessRate rate = success_rate(each.runs, estimator);
+  point.runs = rate.runs;
+  if (point.runs == 0) return point;
   point.success_rate = static_cast<double>(rate.count) / static_cast<double>(rate.runs);
   point.success_interval = rate.interval();
   return point;

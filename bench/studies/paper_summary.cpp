@@ -119,8 +119,7 @@ std::string paper_markdown(const std::vector<PaperExperiment>& experiments, cons
   }
   text += "\n## Agreement with the paper's order\n\n" + to_markdown(order_table(experiments));
   for (const std::string& line : left_out_lines(suite)) text += "\n" + line + "\n";
-  for (const RunFailure& each : suite.failures) text += markdown_item(each);
-  return text;
+  return text + markdown_list(suite.failures);
 }
 
 }  // namespace

@@ -45,8 +45,7 @@ std::string sensitivity_markdown(const SettingSensitivity& sensitivity, const Su
   if (!suite.complete) text += "\n**Interrupted: of the finished runs alone.**\n";
   text += "\n" + to_markdown(sensitivity_table(sensitivity));
   for (const std::string& line : left_out_lines(suite)) text += fmt::format("\n- {}", line);
-  for (const RunFailure& each : suite.failures) text += markdown_item(each);
-  return text;
+  return text + markdown_list(suite.failures);
 }
 
 CsvTable sensitivity_csv(const SettingSensitivity& sensitivity) {

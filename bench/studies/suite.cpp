@@ -51,20 +51,6 @@ Result<void> add_jobs(const SuiteCase& each, std::vector<std::uint64_t> seeds,
   return {};
 }
 
-/// Notes a failure, once for all estimators that have the same one.
-void add_failure(const Job& job, const JobResult& result, std::vector<RunFailure>& failures) {
-  RunFailure failure{job.scenario->name, job.seed, job.estimator.label, result.message};
-  if (!failures.empty()) {
-    RunFailure& last = failures.back();
-    if (last.scenario == failure.scenario && last.seed == failure.seed &&
-        last.message == failure.message) {
-      last.estimator += ", " + failure.estimator;
-      return;
-    }
-  }
-  failures.push_back(std::move(failure));
-}
-
 }  // namespace
 
 void collect_suite(const JobStore& store, Suite& suite) {
@@ -82,7 +68,10 @@ void collect_suite(const JobStore& store, Suite& suite) {
         auto result = store.find(job.id);
         whole = whole && result;
         if (!result) continue;
-        if (result->outcome != JobOutcome::kDone) add_failure(job, *result, suite.failures);
+        if (result->outcome != JobOutcome::kDone) {
+          suite.failures.push_back(
+              {job.scenario->name, job.seed, job.estimator.label, result->message});
+        }
         results.push_back({job.estimator.label, std::move(*result)});
       }
       ended = ended && whole;

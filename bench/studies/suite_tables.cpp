@@ -98,8 +98,7 @@ std::string success_markdown(const Suite& suite) {
 }
 
 std::string failures_markdown(const Suite& suite) {
-  std::string text;
-  for (const RunFailure& each : suite.failures) text += markdown_item(each);
+  std::string text = markdown_list(suite.failures);
   for (const std::string& line : left_out_lines(suite)) text += fmt::format("- {}\n", line);
   return text.empty() ? "Everything ran, and every run is valid.\n" : text;
 }
@@ -177,8 +176,7 @@ std::string suite_markdown(const Suite& suite, const std::vector<FamilyResult>& 
         "\n## Breakdown level\n\nThe first level, going away from the mildest, where less than "
         "half of "
         "the runs succeed or the median ATE yaw exceeds both twice that at the mildest and {:g} % "
-        "of "
-        "the route's length.\n\n{}",
+        "of the route's length.\n\n{}",
         100.0 * kMinBreakError, to_markdown(breaks_table(families)));
   }
   text += "\n## Expectations\n\n" + expectations_markdown(suite);

@@ -214,7 +214,7 @@ bool is_small(const ResponseTable& table, const Objective& objective, const Effe
     }
     scale = mean(scores).value_or(0.0);
   }
-  return (effect.most - effect.least) * scale <=
+  return scale > 0.0 && (effect.most - effect.least) * scale <=
          smallest_change(objective.score, effect.least * scale);
 }
 
@@ -263,7 +263,8 @@ Effect effect_of(const ResponseTable& table, const Objective& objective,
   effect.testable = least_p(rows, seeds.size()).value_or(0.0) <= kEffectLevel;
   if (!effect.is_resolved() || !effect.p || rows.size() < kFewestWithoutOne) return effect;
   rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(farthest_row(rows)));
-  effect.of_one_point = p_of(rows, seeds.size()).value_or(0.0) > kEffectLevel;
+  effect.of_one_point = least_p(rows, seeds.size()).value_or(1.0) <= kEffectLevel &&
+                        p_of(rows, seeds.size()).value_or(0.0) > kEffectLevel;
   return effect;
 }
 

@@ -32,11 +32,15 @@ std::optional<double> statistic_of(const Objective& objective, const std::vector
   return std::nullopt;
 }
 
+/// Relative score of a run where that of the defaults failed: as where both are alike.
+constexpr double kOfNoDefault = 1.0;
+
 /// The run's score as it counts when the run did not diverge.
 std::optional<double> counted(const Objective& objective, const RunScore& run,
                               const RunScore* reference) {
   if (!run.value || !std::isfinite(*run.value)) return std::nullopt;
   if (!objective.relative) return run.value;
+  if (reference != nullptr && !reference->value && reference->diverged) return kOfNoDefault;
   if (reference == nullptr || !reference->value || !(*reference->value > 0.0)) return std::nullopt;
   return *run.value / *reference->value;
 }
@@ -80,7 +84,7 @@ std::string text_of(const Objective& objective) {
   const std::string penalty =
       objective.divergence_penalty == 0.0
           ? fmt::format("a diverged run counts by its score, {} without one", kWithoutScore)
-          : fmt::format("a diverged run counts {0}, and {0} times their fraction is added",
+          : fmt::format("a diverged run counts at least {0}, and {0} times their fraction is added",
                         objective.divergence_penalty);
   return fmt::format("{} of {}{}; {}{}", statistic, objective.score,
                      objective.relative ? " over that of the defaults" : "", penalty, timing);
@@ -138,7 +142,8 @@ std::optional<double> objective_value(const Objective& objective, std::span<cons
     auto value = counted(objective, runs[i], i < reference.size() ? &reference[i] : nullptr);
     if (runs[i].diverged) {
       ++diverged;
-      value = std::max(value.value_or(kWithoutScore), objective.divergence_penalty);
+      const double penalty = objective.divergence_penalty;
+      value = std::max(value.value_or(penalty > 0.0 ? penalty : kWithoutScore), penalty);
     }
     if (value) values.push_back(*value);
   }

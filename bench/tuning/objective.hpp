@@ -56,15 +56,14 @@ struct RunScore {
 /// and is not diverged.
 RunScore run_score(const JobResult& job, const std::string& score);
 
-/// Counts for a run that failed before it had a score.
+/// Counts for a run that failed before it had a score, where there is no penalty.
 inline constexpr double kWithoutScore = 10.0;
 
 /// The statistic over the runs, plus the penalty times the fraction of diverged runs. A diverged
-/// run counts as the penalty in the statistic, or as its score where that is more; as
-/// `kWithoutScore` at least where it has none. Where the
-/// objective is relative, `reference` has the runs of the default setting on the same sequences,
-/// and a run without a positive reference is left out unless it diverged. Invalid runs are left
-/// out. None when no run is left.
+/// run counts as the penalty in the statistic, or as its score where that is more. Where the
+/// objective is relative, `reference` has the runs of the default setting on the same sequences: a
+/// run counts 1 where that failed, and is left out without a positive reference unless it diverged.
+/// Invalid runs are left out. None when no run is left.
 std::optional<double> objective_value(const Objective& objective, std::span<const RunScore> runs,
                                       std::span<const RunScore> reference);
 

@@ -88,8 +88,7 @@ std::string source_text(const Sensitivity& sensitivity) {
                               : figure_text(surrogate.error());
   const std::string fit = fmt::format(
       "A polynomial of {} terms through {} points has a\ncross-validated R² of {} for {}; its "
-      "error "
-      "at points left out is {}.\n",
+      "error at points left out is {}.\n",
       surrogate.terms(), sensitivity.points, percent_text(std::max(0.0, surrogate.explained())), of,
       error);
   return sensitivity.has_indices()

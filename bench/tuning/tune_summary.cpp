@@ -273,8 +273,7 @@ std::string held_out_verdict(const TuneResult& result) {
 std::string front_verdict(const TuneResult& result) {
   if (result.held_out.empty()) {
     return "not validated: no sequence was held out, and a gain on the sequences that were tuned "
-           "on "
-           "may be overfitting";
+           "on may be overfitting";
   }
   if (defaults_all_diverged(result.held_out.front())) {
     return fmt::format("undecided: on the held-out sequences, {}", kNoGain);
@@ -306,8 +305,7 @@ std::string front_verdict(const TuneResult& result) {
 std::string looks_text(std::size_t earlier) {
   return fmt::format(
       "held-out results were looked at {} time{} before; sequences that are added after a look "
-      "make "
-      "p too small. Confirm the values on sequences that were never looked at",
+      "make p too small. Confirm the values on sequences that were never looked at",
       earlier, earlier == 1 ? "" : "s");
 }
 

@@ -467,8 +467,7 @@ Result<RecordingReader> RecordingReader::open(std::unique_ptr<MessageSource> bag
   if (as_live) {
     notes.push_back(
         "units, clocks and contacts: decided as by the live estimate that recorded it, from what "
-        "it "
-        "had heard (as_live)");
+        "it had heard (as_live)");
   }
   auto plan = plan_recording(as_live ? start : *bag, config, *topics, *channels, std::move(notes));
   if (!plan) return tl::unexpected(plan.error());

@@ -190,9 +190,24 @@ TEST(ScoreTable, HasARowForAnEstimatorThatFailed) {
   };
   const TextTable table = score_table(runs);
   EXPECT_EQ(success_of(table, "broken"), "failed (3 of 3 seeds)");
+  EXPECT_TRUE(success_of(table, "some").starts_with("2/3")) << success_of(table, "some");
   EXPECT_TRUE(success_of(table, "some").ends_with(", 1 failed")) << success_of(table, "some");
   EXPECT_TRUE(success_of(table, "aims").starts_with("3/3"));
   EXPECT_EQ(success_of(score_table({runs.data(), 1}), "broken"), "failed");
+}
+
+TEST(ScoreTable, AnEstimatorThatFailedSomewhereHasNoStar) {
+  std::vector<RunRecord> runs = {record(1, 0.1, kFine), record(2, 0.9, kFine)};
+  runs[0].scores["estimators"]["lucky"] = runs[0].scores["estimators"]["aims"];
+  runs[1].scores["failures"] = {{{"estimator", "lucky"}, {"message", "killed"}}};
+  const TextTable table = score_table(runs);
+  const auto stars = [&](const std::string& name) {
+    const auto row =
+        std::ranges::find_if(table.rows, [&](const auto& each) { return each[0] == name; });
+    return std::ranges::count_if(*row, [](const auto& cell) { return cell.ends_with('*'); });
+  };
+  EXPECT_EQ(stars("lucky"), 0) << "of the easier seed alone";
+  EXPECT_GT(stars("aims"), 0);
 }
 
 TEST(ScoreStatistics, OfErrorsWithASignTheWorstIsTheLargest) {

@@ -212,6 +212,27 @@ TEST(Compare, SuccessesAreComparedByMcNemarsTest) {
   EXPECT_NEAR(lost.test.change, -8.0 / 9.0, 1e-12);
 }
 
+TEST(Compare, AnEstimatorThatFailsHasLostItsSuccess) {
+  const StoredResults before = results(kBefore);
+  StoredResults after = before;
+  for (const std::size_t i : {0, 1, 2, 3, 4, 5}) {
+    Json& scores = after["walk"][i].scores;
+    scores["estimators"].erase("aims");
+    scores["failures"] = {{{"estimator", "aims"}, {"message", "killed"}}};
+  }
+  const Comparison comparison = compare(before, after);
+  EXPECT_EQ(comparison.fails_now, std::vector<std::string>{"walk, aims, seed 1,2,3,4,5,6"});
+  EXPECT_TRUE(comparison.only_before.empty());
+  EXPECT_EQ(count(comparison, ChangeVerdict::kWorse), 1U);
+  const auto success = std::ranges::find(comparison.changes, kSuccessKey, &ScoreChange::score);
+  ASSERT_NE(success, comparison.changes.end());
+  EXPECT_EQ(success->pairs, 6U);
+  EXPECT_EQ(success->after, 0.0);
+  EXPECT_EQ(success->verdict, ChangeVerdict::kWorse);
+  EXPECT_EQ(compare(after, before).fails_no_more.size(), 1U);
+  EXPECT_TRUE(compare(after, after).fails_now.empty());
+}
+
 TEST(Compare, NamesSettingsOfOneSideAndWhetherTheyAreOfTheTask) {
   const auto text = [](std::vector<std::string> before, std::vector<std::string> after) {
     return settings_text(with_settings({}, std::move(before), std::move(after)));

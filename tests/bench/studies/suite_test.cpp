@@ -229,6 +229,19 @@ TEST(Families, BreakWhereTheErrorDoublesOrRunsDivergeOnEitherSideOfTheMildest) {
   EXPECT_EQ(families[0].curves[0].breaks_at, std::vector<double>({-10.0, 20.0}));
 }
 
+TEST(Families, BreakWhereEveryRunFails) {
+  Suite suite;
+  suite.cases = {family_case(0.0, {0.1, 0.1}, true), family_case(1.0, {0.1, 0.1}, true)};
+  for (RunRecord& run : suite.cases[1].runs) {
+    run.scores["estimators"] = Json::object();
+    run.scores["failures"] = {{{"estimator", "aims"}, {"message", "killed"}}};
+  }
+  const FamilyCurve curve = family_results(suite)[0].curves[0];
+  EXPECT_EQ(curve.breaks_at, std::vector<double>{1.0});
+  EXPECT_EQ(curve.points[1].runs, 2U);
+  EXPECT_EQ(curve.points[1].success_rate, 0.0);
+}
+
 TEST(Families, DoNotBreakAtTwiceAFewCentimetres) {
   Suite suite;
   suite.cases = {family_case(0.0, {0.025}, true), family_case(1.0, {0.052}, true),

@@ -275,7 +275,56 @@ TEST(Effect, OfASinglePointOrASmallOneIsSaidToBeThat) {
   EXPECT_TRUE(effect_of(of(0.01, 0.5, 0.0), absolute()).small) << "6 mm";
   EXPECT_NE(text_of(effect_of(of(1.0, 0.004, 0.0), absolute())).find("; small, as comparisons"),
             std::string::npos);
-  EXPECT_NE(text_of(effect_of(of(1.0, 0.9, 0.0), absolute())).find("(146 %)"), std::string::npos);
+  EXPECT_NE(text_of(effect_of(of(1.0, 0.9, 0.0), absolute())).find("(146 % of the least)"),
+            std::string::npos);
+}
+
+TEST(Effect, OfRunsThatAllDivergeHidesBehindThePenalty) {
+  const auto ranges = ranges_of({"a=0:1:5"});
+  auto table = table_of(
+      ranges, {0.5}, design(DesignKind::kGrid, ranges, 0, 1), 3,
+      [](const std::vector<double>& point, const ResponseCase&) { return 0.2 + point[0]; });
+  for (auto& runs : table.runs) {
+    for (RunScore& run : runs) run.diverged = true;
+  }
+  for (RunScore& run : table.default_runs) run.diverged = true;
+  Objective objective = absolute();
+  objective.divergence_penalty = 10.0;
+  const Effect hidden = effect_of(table, objective);
+  EXPECT_TRUE(hidden.is_none());
+  EXPECT_EQ(hidden.saturated, hidden.cases);
+  EXPECT_NE(text_of(hidden).find("the run diverged at every point and counts the penalty"),
+            std::string::npos)
+      << text_of(hidden);
+  EXPECT_FALSE(best_point(table, objective));
+  objective.divergence_penalty = 0.0;
+  const Effect seen = effect_of(table, objective);
+  EXPECT_EQ(seen.saturated, 0U);
+  EXPECT_NEAR(seen.least, 0.2, 1e-12);
+  EXPECT_NEAR(seen.most, 1.2, 1e-12);
+  const auto best = best_point(table, objective);
+  ASSERT_TRUE(best) << best.error().message;
+  table.runs[0][0].value.reset();  // crashed: never the best for that
+  EXPECT_GT(effect_of(table, objective).most, 3.0);
+}
+
+TEST(Effect, ThatSoFewSeedsAndPointsCannotShowIsNotCalledScatter) {
+  const auto ranges = ranges_of({"scale=1:1.4:5"});
+  const auto of = [&](int seeds) {
+    return effect_of(table_of(ranges, {1.2}, design(DesignKind::kGrid, ranges, 0, 1), seeds,
+                              [](const std::vector<double>& point, const ResponseCase&) {
+                                return std::abs(point[0] - 1.25) < 0.1 ? 1.0 : 20.0;
+                              }),
+                     absolute());
+  };
+  const Effect two = of(2);
+  EXPECT_GT(two.p.value(), 0.05);
+  EXPECT_FALSE(two.testable);
+  EXPECT_NE(text_of(two).find("not resolved: too few seeds and points for the test below"),
+            std::string::npos)
+      << text_of(two);
+  EXPECT_TRUE(of(4).testable);
+  EXPECT_TRUE(of(4).is_resolved());
 }
 
 TEST(Effect, BelowTheScatterOfSeedsResolvesNoIndex) {

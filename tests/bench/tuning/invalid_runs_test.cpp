@@ -159,6 +159,24 @@ ResponseTable falls_by(double gain) {
   return table;
 }
 
+// Two of eight held-out runs of the defaults crash, none with the tuned values.
+TEST(HeldOutVerdict, CountsSequencesOnWhichTheDefaultsFailed) {
+  ResponseTable table = falls_by(0.05);
+  for (const std::size_t i : {0, 1}) table.default_runs[i] = {std::nullopt, true};
+  for (const bool relative : {false, true}) {
+    Objective objective;
+    objective.relative = relative;
+    const PairedGain gain = paired_gain(table, objective, 0);
+    EXPECT_EQ(gain.seeds, 8U) << relative;
+    EXPECT_EQ(gain.diverged_before, 2U) << relative;
+    EXPECT_EQ(verdict_of(gain), Verdict::kUseThem) << verdict_text(gain);
+  }
+  for (RunScore& each : table.default_runs) each = {std::nullopt, true};
+  const PairedGain all = paired_gain(table, Objective(), 0);
+  EXPECT_EQ(all.seeds, 8U);
+  EXPECT_EQ(verdict_of(all), Verdict::kUseThem) << verdict_text(all);
+}
+
 // The rule of `aims study compare`: 5 %, and 1 cm of an ATE.
 TEST(HeldOutVerdict, NeedsAGainThatMatters) {
   const PairedGain small = paired_gain(falls_by(0.009), Objective(), 0);
