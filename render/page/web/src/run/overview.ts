@@ -3,7 +3,7 @@
 import { drawToFit, lineSample } from "../charts/svg";
 import type { RunPayload, TimeInterval } from "../contract";
 import { h } from "../dom";
-import { isNumber } from "../format";
+import { formatFixed, isNumber } from "../format";
 import { color, onTheme, seriesColor } from "../theme";
 import { errorTrack, mostOf, ownTrack, thin, truePath, type Alignment, type ErrorTrack, type Path } from "./errors";
 import { layered } from "./layers";
@@ -66,7 +66,7 @@ function shownTracks(data: RunPayload, path: Path | null, store: Store): Shown[]
 }
 
 /** Errors of all, thinned. */
-function errorSpec(shown: Shown[]): PanelSpec {
+function errorSpec(shown: Shown[], path: Path): PanelSpec {
   const most = Math.max(0.1, ...shown.map(({ track }) => mostOf(track)));
   const errors = shown.flatMap(({ track }) => track.error.filter(Number.isFinite)).sort((a, b) => a - b);
   const least = Math.min(kLeast[1], Math.max(kLeast[0], errors[Math.floor(0.05 * errors.length)] ?? 0));
@@ -84,6 +84,7 @@ function errorSpec(shown: Shown[]): PanelSpec {
   return {
     id: "error_distance", title: "Position error", unit: "m", curves, log: true, range: [least, 1.4 * most],
     height: kHeight, xUnit: "m", hint: "Over the distance travelled",
+    cursorText: (distance) => `at ${formatFixed(path.t[nearestIndex(path.travelled, distance)] ?? NaN, 1)} s, ${formatFixed(distance, 1)} m`,
   };
 }
 
@@ -128,7 +129,7 @@ class ErrorChart {
         isNumber(t) ? [{ t: this.distanceAt(t), text: name, color: color("--ink-soft") }] : []),
     };
     const window = { from: 0, to: Math.max(this.path.travelled.at(-1) ?? 1, 1) };
-    this.panel = new Panel(errorSpec(this.shown), behind, width, window, true, true);
+    this.panel = new Panel(errorSpec(this.shown, this.path), behind, width, window, true, true);
     this.element.append(this.panel.element);
     requestAnimationFrame(() => this.showCursor());
   }
