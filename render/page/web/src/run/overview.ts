@@ -66,7 +66,7 @@ function shownTracks(data: RunPayload, path: Path | null, store: Store): Shown[]
 }
 
 /** Errors of all, thinned. */
-function errorSpec(shown: Shown[], path: Path): PanelSpec {
+function errorSpec(shown: Shown[]): PanelSpec {
   const most = Math.max(0.1, ...shown.map(({ track }) => mostOf(track)));
   const errors = shown.flatMap(({ track }) => track.error.filter(Number.isFinite)).sort((a, b) => a - b);
   const least = Math.min(kLeast[1], Math.max(kLeast[0], errors[Math.floor(0.05 * errors.length)] ?? 0));
@@ -84,7 +84,6 @@ function errorSpec(shown: Shown[], path: Path): PanelSpec {
   return {
     id: "error_distance", title: "Position error", unit: "m", curves, log: true, range: [least, 1.4 * most],
     height: kHeight, xUnit: "m", hint: "Over the distance travelled",
-    cursorText: (distance) => `at ${formatFixed(path.t[nearestIndex(path.travelled, distance)] ?? NaN, 1)} s, ${formatFixed(distance, 1)} m`,
   };
 }
 
@@ -95,10 +94,13 @@ class ErrorChart {
   private panel: Panel | null = null;
 
   constructor(private readonly data: RunPayload, private readonly path: Path, private readonly store: Store) {
-    this.element.addEventListener("pointermove", (event) => this.panel?.showCursor(this.panel.timeAt(event.clientX)));
+    this.element.addEventListener("pointermove", (event) => {
+      const distance = this.panel?.timeAt(event.clientX) ?? NaN;
+      this.show(distance, this.timeOf(distance));
+    });
     this.element.addEventListener("pointerleave", () => this.showCursor());
     this.element.addEventListener("click", (event) => {
-      if (this.panel) store.moveTo(path.t[nearestIndex(path.travelled, this.panel.timeAt(event.clientX))] ?? 0);
+      if (this.panel) store.moveTo(this.timeOf(this.panel.timeAt(event.clientX)));
     });
     store.on(["cursor"], () => this.showCursor());
     onTheme(() => this.build());
@@ -114,8 +116,17 @@ class ErrorChart {
     return this.path.travelled[nearestIndex(this.path.t, seconds)] ?? NaN;
   }
 
+  private timeOf(distance: number): number {
+    return this.path.t[nearestIndex(this.path.travelled, distance)] ?? 0;
+  }
+
+  private show(distance: number, seconds: number): void {
+    this.panel?.showCursor(distance, `at ${formatFixed(seconds, 1)} s, ${formatFixed(distance, 1)} m`);
+  }
+
   private showCursor(): void {
-    this.panel?.showCursor(this.distanceAt(this.store.state.cursor));
+    const { cursor } = this.store.state;
+    this.show(this.distanceAt(cursor), cursor);
   }
 
   private build(): void {
@@ -129,7 +140,7 @@ class ErrorChart {
         isNumber(t) ? [{ t: this.distanceAt(t), text: name, color: color("--ink-soft") }] : []),
     };
     const window = { from: 0, to: Math.max(this.path.travelled.at(-1) ?? 1, 1) };
-    this.panel = new Panel(errorSpec(this.shown, this.path), behind, width, window, true, true);
+    this.panel = new Panel(errorSpec(this.shown), behind, width, window, true, true);
     this.element.append(this.panel.element);
     requestAnimationFrame(() => this.showCursor());
   }

@@ -41,8 +41,6 @@ export interface PanelSpec {
   height?: number;
   /** Of the axis below; seconds without. */
   xUnit?: string;
-  /** Where the cursor is, "at 60.6 s"; from its place on the axis below. */
-  cursorText?: (x: number) => string;
 }
 
 const kAxisWidth = 54;
@@ -223,12 +221,12 @@ export class Panel {
     };
   }
 
-  /** Moves the line and shows the values there. */
-  showCursor(seconds: number): void {
+  /** Moves the line and shows the values there; `at`: where that is. */
+  showCursor(seconds: number, at = `at ${formatFixed(seconds, 1)} s`): void {
     const position = this.plot.valToPos(seconds, "x");
     const inside = position >= -1 && position <= this.plot.bbox.width / uPlot.pxRatio + 1;
     this.line.hidden = !inside;
-    this.at.textContent = this.spec.cursorText?.(seconds) ?? `at ${formatFixed(seconds, 1)} s`;
+    this.at.textContent = at;
     if (inside) this.line.style.transform = `translateX(${position.toFixed(2)}px)`;
     for (const { curve, shown } of this.values) {
       const value = valueAt(curve.track, seconds);
