@@ -8,7 +8,9 @@
 
 #include "bench/estimate/estimate.hpp"
 #include "bench/estimate/estimate_summary.hpp"
+#include "bench/scoring/failure_reasons.hpp"
 #include "bench/scoring/health_summary.hpp"
+#include "bench/scoring/trajectory_summary.hpp"
 #include "cli/commands.hpp"
 #include "cli/json_output.hpp"
 #include "cli/options.hpp"
@@ -63,7 +65,11 @@ void print_results(const EstimateResult& result, const fs::path& folder,
   for (const auto& [event, count] : result.counts) print_out("note: {}: {}\n", event, count);
   print_out("{}, {:.1f} s\n", result.bag.string(), result.recorded_s);
   print_scores_table(estimate_table(result), result.scores ? "scores.json" : "estimate.json");
-  print_out("\n");
+  print_out("{}\n", result.scores ? score_legend(*result.scores) : "");
+  if (result.scores) {
+    const RunRecord record = record_of(*result.scores);
+    for (const std::string& line : failure_lines({&record, 1})) print_out("no success: {}\n", line);
+  }
   for (const EstimatorOutcome& each : result.estimators) {
     if (each.totals.poses == 0) {
       for (const auto& [event, count] : each.result.counts) {

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostPages = 5;  ///< pages that are listed one by one
+constexpr std::size_t kMostPages = 5;  ///< more are counted, but for the last, which has all runs
 
 struct PageArguments {
   std::vector<std::string> folders;
@@ -32,8 +32,10 @@ bool is_terminal() { return isatty(STDERR_FILENO) != 0; }
 void print_pages(const WrittenPages& written) {
   for (const std::string& warning : written.warnings) print_out("warning: {}\n", warning);
   const std::size_t count = written.pages.size();
-  const std::size_t left_out = count > kMostPages ? count - kMostPages : 0;
-  if (left_out > 0) print_out("page: {} pages of runs, and\n", left_out);
+  const std::size_t left_out = count > kMostPages ? count - 1 : 0;
+  if (left_out > 0) {
+    print_out("pages of {} runs, {} and others\n", left_out, written.pages.front().string());
+  }
   for (std::size_t i = left_out; i < count; ++i) {
     print_out("page: {}\n", written.pages[i].string());
   }

@@ -31,8 +31,10 @@ SharedOptions with_defaults(SharedOptions options) {
 Result<void> write_results(const Suite& suite, const std::vector<PaperExperiment>& experiments,
                            const SharedOptions& shared) {
   const fs::path out = shared.out;
+  remove_earlier_runs(out);
   auto written = write_suite(suite, out);
   if (written) written = write_suite_runs(suite, out);
+  if (written) written = list_suite(out);
   if (written) written = write_paper(experiments, suite, out);
   if (!written) return written;
   DrawDisplay display(shared.quiet);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/scoring/failure_reasons.hpp"
 #include "bench/scoring/health_summary.hpp"
 #include "bench/scoring/score_table.hpp"
 #include "bench/studies/written_runs.hpp"
@@ -84,6 +85,7 @@ void print_run(const Suite& suite, const fs::path& out, const SharedOptions& sha
     const bool several_seeds = each.runs.front().seed != each.runs.back().seed;
     print_scores_table(score_table(each.runs), several_seeds ? "summary.md" : "scores.json");
     print_out("{}\n", score_legend(each.runs, each.scenario.scoring));
+    for (const std::string& line : failure_lines(each.runs)) print_out("no success: {}\n", line);
     print_health(each);
     print_invalid_poses(each);
   }

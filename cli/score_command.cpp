@@ -6,6 +6,7 @@
 #include "bench/estimate/scoring_input.hpp"
 #include "bench/scenario/scoring_config.hpp"
 #include "bench/scoring/evo_export.hpp"
+#include "bench/scoring/failure_reasons.hpp"
 #include "bench/scoring/trajectory_summary.hpp"
 #include "cli/commands.hpp"
 #include "cli/json_output.hpp"
@@ -38,6 +39,8 @@ void print_scores(const TrajectoryScores& scores, const fs::path& folder) {
   print_out("{}\n", to_text(trajectory_source_table(scores)));
   print_scores_table(trajectory_score_table(scores), "scores.md");
   print_out("{}", score_legend(scores));
+  const RunRecord record = record_of(scores);
+  for (const std::string& line : failure_lines({&record, 1})) print_out("no success: {}\n", line);
   for (const std::string& note : scores.notes) print_out("note: {}\n", note);
   print_out("results: {}\n", (folder / "").string());
   for (const auto& picture : pictures_in(folder)) print_out("  {}\n", picture.string());

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "bench/scoring/failure_reasons.hpp"
 #include "bench/scoring/score_table.hpp"
 #include "bench/studies/families.hpp"
 #include "bench/studies/suite_summary.hpp"
@@ -41,6 +42,7 @@ void print_scenarios(const Suite& suite) {
     if (each.runs.empty()) continue;
     print_out("{}\n", each.scenario.name);
     print_scores_table(score_table(each.runs), "suite.md");
+    for (const std::string& line : failure_lines(each.runs)) print_out("no success: {}\n", line);
     print_out("\n");
     last = &each;
   }
@@ -83,9 +85,10 @@ void print_suite(const Suite& suite, const SharedOptions& shared) {
 
 Result<void> write_results(const Suite& suite, const SuiteArguments& arguments) {
   const fs::path out = arguments.shared.out;
+  remove_earlier_runs(out);
   auto written = write_suite(suite, out);
   if (written && arguments.trajectories) written = write_suite_runs(suite, out);
-  return written;
+  return written ? list_suite(out) : written;
 }
 
 Result<Answer> suite_command(const SuiteArguments& arguments) {

@@ -4,9 +4,10 @@
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 mkdir -p build
 cat <<'TEXT'
-A simulated quadruped walks along a plain corridor of 78.6 m. For 24 m its LiDAR sees neither end wall, and
-no scan tells how far the robot has walked; for 12 m before and behind only a few returns do (the page shades
-all of it). Four estimators get the same data; look at the column M_list, the error of the corridor's length:
+A simulated quadruped walks along a plain corridor of 78.6 m. In its middle, for about 24 m, the LiDAR sees
+neither end wall, and no scan tells how far the robot has walked; before and behind only a few returns do (the
+page shades both: 45 of 79 m). Four estimators get the same data; look at the column M_list, the error of the
+corridor's length:
   lio       LiDAR and IMU: loses its way there and ends near 50 m
   leg       legs alone: their steps are taken a fifth too short, all the way
   aims_d    LiDAR, IMU and legs, weighed per direction: corrects the legs where scans allow it: its

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "bench/run/expectations.hpp"
+#include "bench/scoring/failure_reasons.hpp"
 #include "bench/scoring/json_text.hpp"
 #include "bench/scoring/report.hpp"
 #include "bench/scoring/score_statistics.hpp"
@@ -54,6 +55,8 @@ std::string markdown_of(const SeedRuns& seeds) {
   if (const std::string left_out = left_out_text(runs); !left_out.empty()) {
     text += "\n" + left_out + ".\n";
   }
+  for (const std::string& line : failure_lines(runs)) text += "\n- No success: " + line;
+  if (!failure_lines(runs).empty()) text += "\n";
   if (failures.empty()) return text;
   text += "\n## Failures\n\n";
   return text + markdown_list(failures);

@@ -87,7 +87,7 @@ void note_truth(const ScoringInput& input, std::vector<std::string>& notes) {
   const Trajectory& truth = input.truth.trajectory;
   note_gaps(truth, input.scoring, notes);
   if (input.segments.empty()) {
-    notes.emplace_back("no reference points: M_list is n/a");
+    notes.emplace_back("no reference points: no M_list");
     return;
   }
   for (const Segment& each : input.segments) {

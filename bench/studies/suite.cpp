@@ -51,6 +51,16 @@ Result<void> add_jobs(const SuiteCase& each, std::vector<std::uint64_t> seeds,
   return {};
 }
 
+/// Notes a failure; that of a sequence once, for all estimators.
+void add_failure(const Job& job, const JobResult& result, std::vector<RunFailure>& failures) {
+  const bool of_all = result.outcome == JobOutcome::kNotSimulated;
+  RunFailure failure{job.scenario->name, job.seed, of_all ? "" : job.estimator.label,
+                     result.message};
+  const bool noted = of_all && !failures.empty() && failures.back().seed == failure.seed &&
+                     failures.back().scenario == failure.scenario;
+  if (!noted) failures.push_back(std::move(failure));
+}
+
 }  // namespace
 
 void collect_suite(const JobStore& store, Suite& suite) {
@@ -69,8 +79,7 @@ void collect_suite(const JobStore& store, Suite& suite) {
         whole = whole && result;
         if (!result) continue;
         if (result->outcome != JobOutcome::kDone) {
-          suite.failures.push_back(
-              {job.scenario->name, job.seed, job.estimator.label, result->message});
+          add_failure(job, *result, suite.failures);
         }
         results.push_back({job.estimator.label, std::move(*result)});
       }

@@ -33,23 +33,33 @@ Result<void> link_or_copy(const fs::path& from, const fs::path& to) {
   return failure(fmt::format("{}: {}", to.string(), code.message()));
 }
 
-/// Removes what an earlier invocation wrote of estimators, and nothing else.
-void remove_estimators(const fs::path& folder) {
+/// Removes what aims wrote into the folder, and the folder where nothing else is in it.
+void remove_written(const fs::path& folder) {
   std::error_code ignored;
-  for (const std::string& name : listed_files(folder).value_or(FileList())) {
-    const bool is_estimator =
-        std::any_of(std::begin(kEstimatorFiles), std::end(kEstimatorFiles),
-                    [&](const char* ending) { return name.ends_with(ending); });
-    const bool is_here = name.find('/') == std::string::npos;
-    if (is_estimator && is_here && name != "truth.tum") fs::remove(folder / name, ignored);
+  const auto written = listed_files(folder);
+  if (!written) return;
+  for (const std::string& name : *written) {
+    if (name.find('/') == std::string::npos) fs::remove(folder / name, ignored);
   }
+  fs::remove(folder / kManifestFile, ignored);
+  fs::remove(folder, ignored);
+}
+
+/// Does so in each folder seed-N of `parent`.
+void remove_seeds(const fs::path& parent) {
+  std::error_code ignored;
+  std::vector<fs::path> seeds;
+  for (const auto& entry : fs::directory_iterator(parent, ignored)) {
+    const bool is_seed = entry.path().filename().string().starts_with("seed-");
+    if (is_seed && entry.is_directory(ignored)) seeds.push_back(entry.path());
+  }
+  for (const fs::path& seed : seeds) remove_written(seed);
 }
 
 /// Links the outputs of the run's jobs under the labels of their estimators; their names.
 Result<FileList> link_outputs(const JobStore& store, const Suite& suite,
                               const std::string& scenario, std::uint64_t seed,
                               const fs::path& folder) {
-  remove_estimators(folder);
   FileList files;
   for (const Job& job : suite.jobs) {
     if (job.scenario->name != scenario || job.seed != seed) continue;
@@ -76,7 +86,32 @@ bool has_several_seeds(const Suite& suite) {
   return suite.jobs.front().seed != suite.jobs.back().seed;
 }
 
+/// Writes the manifest of the folder of several runs, from those of `files` that are there.
+Result<void> list_files(const fs::path& out, const FileList& files) {
+  std::error_code ignored;
+  FileList there;
+  for (const std::string& file : files) {
+    if (fs::exists(out / file, ignored)) there.insert(file);
+  }
+  return write_manifest(out, there);
+}
+
 }  // namespace
+
+void remove_earlier_runs(const fs::path& out) {
+  remove_seeds(out);
+  std::error_code ignored;
+  std::vector<fs::path> scenarios;
+  for (const auto& entry : fs::directory_iterator(out / "runs", ignored)) {
+    if (entry.is_directory(ignored)) scenarios.push_back(entry.path());
+  }
+  for (const fs::path& scenario : scenarios) {
+    remove_seeds(scenario);
+    fs::remove(scenario, ignored);
+  }
+  fs::remove(out / "runs", ignored);
+  remove_written(out);
+}
 
 Result<void> write_run(const JobStore& store, const Suite& suite, const SuiteCase& each,
                        const RunRecord& record, const fs::path& folder) {
@@ -127,12 +162,15 @@ Result<void> write_runs(const Suite& suite, const fs::path& out) {
   const JobStore store(out);
   const SuiteCase& only = suite.cases.front();
   const std::vector<fs::path> folders = run_folders(suite, out);
+  remove_earlier_runs(out);
   for (std::size_t i = 0; i < only.runs.size(); ++i) {
     auto written = write_run(store, suite, only, only.runs[i], folders[i]);
     if (!written) return written;
   }
   if (!has_several_seeds(suite)) return {};
-  return write_summary({only.scenario, only.runs, suite.failures, suite.complete}, out);
+  auto written = write_summary({only.scenario, only.runs, suite.failures, suite.complete}, out);
+  if (!written) return written;
+  return list_files(out, {"summary.md", "summary.csv", "summary.json", "summary.tex"});
 }
 
 fs::path suite_run_folder(const fs::path& out, const std::string& scenario, std::uint64_t seed) {
@@ -149,6 +187,10 @@ Result<void> write_suite_runs(const Suite& suite, const fs::path& out) {
     }
   }
   return {};
+}
+
+Result<void> list_suite(const fs::path& out) {
+  return list_files(out, {"suite.md", "suite.csv", "suite.json", "suite.tex", "timings.csv"});
 }
 
 }  // namespace aims

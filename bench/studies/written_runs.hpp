@@ -27,11 +27,19 @@ Json run_json(const Suite& suite, const std::filesystem::path& out);
 std::vector<std::filesystem::path> run_folders(const Suite& suite,
                                                const std::filesystem::path& out);
 
-/// Writes every run of a suite of one scenario, and of several seeds a summary over them.
+/// Removes the runs, pictures, summaries and pages that `run` or `suite` wrote into `out` before,
+/// by their manifests (core/files/manifest.hpp). The store of jobs and files of others stay.
+void remove_earlier_runs(const std::filesystem::path& out);
+
+/// Writes every run of a suite of one scenario, and of several seeds a summary over them;
+/// nothing else of an earlier invocation stays.
 Result<void> write_runs(const Suite& suite, const std::filesystem::path& out);
 
 /// Writes every run of a suite into `out/runs/SCENARIO/seed-N`.
 Result<void> write_suite_runs(const Suite& suite, const std::filesystem::path& out);
+
+/// Lists the tables of a suite in the manifest of its folder, to which pages are added.
+Result<void> list_suite(const std::filesystem::path& out);
 
 /// Where `write_suite_runs` puts a run.
 std::filesystem::path suite_run_folder(const std::filesystem::path& out,

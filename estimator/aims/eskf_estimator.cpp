@@ -65,13 +65,15 @@ EskfEstimator::EskfEstimator(const EskfConfig& config, const SensorRig& rig,
 void EskfEstimator::consume(const Delivery& delivery) {
   queue_.push(delivery);
   process_ready();
-  if (!judged_ || *queue_.now() - *judged_ >= HealthMonitor::kInterval) judge_health();
+  if (!judged_ || *queue_.now() - *judged_ >= HealthMonitor::kInterval) {
+    append_health(result_.health, judged_health());
+  }
 }
 
 void EskfEstimator::finish() {
   queue_.close();
   process_ready();
-  if (queue_.now()) judge_health();
+  if (queue_.now()) close_health(result_.health, judged_health());
 }
 
 void EskfEstimator::process_ready() {
@@ -128,10 +130,10 @@ void EskfEstimator::coast() {
   if (newest && *newest - last_correction_ >= kCoastAfter) report_pose_without_scan(*newest);
 }
 
-void EskfEstimator::judge_health() {
+HealthRow EskfEstimator::judged_health() {
   judged_ = queue_.now();
   const auto estimate = started_ ? std::optional(health_estimate(belief_)) : std::nullopt;
-  append_health(result_.health, health_.judge(*judged_, queue_.inputs(), estimate));
+  return health_.judge(*judged_, queue_.inputs(), estimate);
 }
 
 /// The pipeline of one scan. Leg packets since the last scan have corrected the belief at their own

@@ -58,7 +58,7 @@ class EskfEstimator : public Estimator, public MotionSource {
   void report_pose_without_scan(Time stamp);
   void report_pose(Time stamp);
   void coast();
-  void judge_health();
+  HealthRow judged_health();
   void repeat_lost_legs(Time until);
   void fuse_leg_velocity(const LegOdometrySample& sample);
   bool scans_measure_scale_of_feet() const;

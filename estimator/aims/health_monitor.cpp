@@ -145,6 +145,12 @@ void HealthMonitor::judge_estimate(const HealthEstimate& estimate, Findings& fin
   }
 }
 
+void close_health(std::vector<HealthRow>& rows, HealthRow row) {
+  const bool same = !rows.empty() && rows.back().state == row.state &&
+                    rows.back().reasons == row.reasons && rows.back().stamp == row.stamp;
+  if (!same) rows.push_back(std::move(row));
+}
+
 HealthRow HealthMonitor::judge(Time now, const InputMonitor& inputs,
                                const std::optional<HealthEstimate>& estimate) {
   Findings findings;

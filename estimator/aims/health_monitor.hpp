@@ -75,4 +75,7 @@ class HealthMonitor {
   bool not_finite_ = false;  ///< since the last judgement
 };
 
+/// Appends the row of the end of the stream, until which the one before holds.
+void close_health(std::vector<HealthRow>& rows, HealthRow row);
+
 }  // namespace aims

@@ -31,16 +31,21 @@ void LegDeadReckoning::finish() {
     if (last_) result_.trajectory.push_back({stamp, last_->pose});
   }
   waiting_.clear();
+  if (queue_.now()) close_health(result_.health, judged_health(*queue_.now()));
 }
 
 void LegDeadReckoning::judge_health() {
   const std::optional<Time> now = queue_.now();
   if (!now || (judged_ && *now - *judged_ < HealthMonitor::kInterval)) return;
+  append_health(result_.health, judged_health(*now));
+}
+
+HealthRow LegDeadReckoning::judged_health(Time now) {
   judged_ = now;
   std::optional<HealthEstimate> estimate;
   if (last_) estimate = {last_->pose.translation, speed_, kNotComputed};
-  append_health(result_.health, health_.judge(*now, queue_.inputs(), estimate));
   speed_ = 0.0;
+  return health_.judge(now, queue_.inputs(), estimate);
 }
 
 void LegDeadReckoning::process_legs(const LegOdometrySample& sample) {

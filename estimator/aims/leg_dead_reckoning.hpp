@@ -34,6 +34,7 @@ class LegDeadReckoning : public QueuedEstimator {
   void process_scan(const LidarScanPtr& scan) override;
   void end_delivery() override { judge_health(); }
   void judge_health();
+  HealthRow judged_health(Time now);
 
   HealthMonitor health_;
   std::optional<Time> start_;   ///< stamp of the first sample

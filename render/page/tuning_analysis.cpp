@@ -98,12 +98,23 @@ Json points_json(const std::vector<SlicePoint>& points, bool has_y, PageData& pa
   return json;
 }
 
+/// The family, or its scenario where there is one alone; empty for all sequences.
+std::string group_name(const ResponseTable& table, const std::string& family) {
+  std::string name;
+  for (const std::size_t i : cases_of(table, family)) {
+    const std::string& scenario = table.cases[i].scenario;
+    if (!name.empty() && name != scenario) return family;
+    name = scenario;
+  }
+  return family.empty() ? family : name;
+}
+
 /// Null for an empty slice.
 Json slice_json(const ResponseTable& table, const Slice& slice, PageData& page) {
   if (slice.is_empty()) return {};
   const bool has_y = slice.second.has_value();
   Json json = {{"first", slice.first},
-               {"family", slice.family},
+               {"family", group_name(table, slice.family)},
                {"held", held_text(table, slice)},
                {"held_at", slice.held},
                {"measured", points_json(slice.measured, has_y, page)},

@@ -14,6 +14,7 @@
 #include "bench/scoring/score_record.hpp"
 #include "bench/scoring/start_anchor.hpp"
 #include "core/files/atomic_file.hpp"
+#include "core/files/manifest.hpp"
 #include "core/files/tum.hpp"
 #include "core/files/waypoint_times.hpp"
 #include "estimator/estimator_spec.hpp"
@@ -151,6 +152,21 @@ Result<void> draw_first_degeneracy(const DrawnRun& run, const fs::path& folder) 
   return {};
 }
 
+/// Lists the pictures of the run in the manifest of its folder: the next run there removes them.
+void list_pictures(const DrawnRun& run, const fs::path& folder) {
+  std::vector<std::string> names = {"robot_start.png", "robot_middle.png", "robot_turn.png",
+                                    "trajectories.png", "degeneracy.png"};
+  for (const EstimatorOutcome& each : run.estimators) {
+    for (const char* view : {"top", "side"}) {
+      names.push_back(fmt::format("{}-map-{}.png", each.name, view));
+    }
+  }
+  std::error_code ignored;
+  for (const std::string& name : names) {
+    if (fs::exists(folder / name, ignored)) add_to_manifest(folder / name);
+  }
+}
+
 }  // namespace
 
 Result<void> draw_run(const fs::path& folder, const DrawObserver& observer, int threads) {
@@ -165,7 +181,9 @@ Result<void> draw_run(const fs::path& folder, const DrawObserver& observer, int 
     pictures.push_back({folder / (each.name + "-map-top.png"),
                         [&] { return draw_map(run->scenario.name, each, folder); }});
   }
-  return draw_all(pictures, threads, observer);
+  auto drawn = draw_all(pictures, threads, observer);
+  list_pictures(*run, folder);
+  return drawn;
 }
 
 Result<void> draw_systems(const fs::path& folder, const std::vector<std::string>& maps,

@@ -52,6 +52,55 @@ TEST_F(Overwrite, RunRemovesOnlyTheTrajectoriesThatItWrote) {
   EXPECT_TRUE(exists("out/rival.tum")) << "somebody else's";
 }
 
+TEST_F(Overwrite, ARunMadeAgainLeavesNoPictureAndNoPageOfTheOneBefore) {
+  write("my.yaml", testing::kMetreWalk);
+  const std::string command = "run my.yaml --estimators leg --out out --quiet";
+  ASSERT_EQ(aims(command).exit_code, 0);
+  ASSERT_TRUE(exists("out/trajectories.png"));
+  ASSERT_TRUE(exists("out/page.html"));
+  write("out/mine.png", "");
+  const Outcome again = aims(command + " --set lidar.columns=450 --overwrite --no-pictures");
+  EXPECT_EQ(again.exit_code, 0) << again.output;
+  EXPECT_FALSE(holds(again, "trajectories.png")) << again.output;
+  EXPECT_FALSE(exists("out/trajectories.png"));
+  EXPECT_FALSE(exists("out/robot_start.png"));
+  EXPECT_TRUE(exists("out/mine.png")) << "somebody else's";
+  EXPECT_EQ(aims(command + " --overwrite --no-pictures --no-page").exit_code, 0);
+  EXPECT_FALSE(exists("out/page.html"));
+}
+
+TEST_F(Overwrite, FewerSeedsLeaveNoSeedOfTheRunBefore) {
+  write("my.yaml", testing::kMetreWalk);
+  const std::string command = "run my.yaml --estimators leg --out out --quiet --no-pictures";
+  ASSERT_EQ(aims(command + " --seeds 1-3").exit_code, 0);
+  write("out/seed-3/a-note.txt", "mine");
+  ASSERT_EQ(aims(command + " --seeds 1-2").exit_code, 0);
+  const std::string page = read_file(folder_.path() / "out/page.html").value();
+  EXPECT_NE(page.find("seeds 1–2"), std::string::npos) << "and not 1–3";
+  EXPECT_FALSE(exists("out/seed-3/scores.json"));
+  EXPECT_TRUE(exists("out/seed-3/a-note.txt")) << "somebody else's";
+  ASSERT_EQ(aims(command + " --seeds 2").exit_code, 0);
+  EXPECT_TRUE(exists("out/scores.json"));
+  EXPECT_FALSE(exists("out/summary.md"));
+  EXPECT_FALSE(exists("out/seed-1"));
+  ASSERT_EQ(aims(command + " --seeds 1-3").exit_code, 0);
+  EXPECT_FALSE(exists("out/scores.json"));
+  EXPECT_TRUE(exists("out/seed-3/scores.json")) << "its jobs are still in the store";
+}
+
+TEST_F(Overwrite, ASuiteMadeAgainLeavesNoRunAndNoPageOfTheOneBefore) {
+  write("my.yaml", testing::kMetreWalk);
+  const std::string command = "suite my.yaml --estimators leg --out out --quiet";
+  ASSERT_EQ(aims(command + " --seeds 1-2 --trajectories").exit_code, 0);
+  ASSERT_TRUE(exists("out/page.html"));
+  ASSERT_EQ(aims(command + " --seeds 2 --trajectories --no-page").exit_code, 0);
+  EXPECT_FALSE(exists("out/page.html"));
+  EXPECT_FALSE(exists("out/runs/my/seed-1"));
+  EXPECT_TRUE(exists("out/runs/my/seed-2/scores.json"));
+  ASSERT_EQ(aims(command + " --seeds 2").exit_code, 0);
+  EXPECT_FALSE(exists("out/runs"));
+}
+
 TEST_F(Overwrite, TwoSuitesOnOneFolderSayThatItIsInUse) {
   fs::create_directories(folder_.path() / "out");
   write("my.yaml", testing::kMetreWalk);

@@ -26,6 +26,7 @@ TEST_F(Pages, AreWrittenByEstimateAndScore) {
   EXPECT_EQ(with.exit_code, 0) << with.output;
   EXPECT_TRUE(holds(with, "page: with/page.html")) << with.output;
   EXPECT_TRUE(exists("with/page.html"));
+  EXPECT_TRUE(holds(with, "ATE yaw, heading: after least squares")) << with.output;
   EXPECT_EQ(aims(estimate + "--topics truth=none --out without").exit_code, 0);
   EXPECT_TRUE(exists("without/page.html")) << "an estimate without a truth has a page";
   const std::string score = "score --truth with/truth.tum --estimate with/leg.tum --name 'my leg' ";
@@ -40,6 +41,28 @@ TEST_F(Pages, AreWrittenByEstimateAndScore) {
   EXPECT_EQ(aims(score + "--out score --overwrite --no-page").exit_code, 0);
   EXPECT_FALSE(exists("score/page.html")) << "it is a file of ours, so it is removed";
   EXPECT_FALSE(exists("score/page.html.kept"));
+}
+
+TEST_F(Pages, ManyAreCountedAndTheirCommonOneIsNamed) {
+  scenario(testing::kMetreWalk);
+  const std::string command = "run my.yaml --estimators leg --no-pictures --quiet --out out";
+  const Outcome many = aims(command + " --seeds 1-6");
+  EXPECT_TRUE(
+      holds(many, "pages of 6 runs, out/seed-1/page.html and others\npage: out/page.html\n"))
+      << many.output;
+}
+
+TEST_F(Pages, OfSeveralSeedsTheReasonOfAFailureIsNamed) {
+  scenario(testing::kMetreWalk);
+  const Outcome gap = aims(
+      "run my.yaml --estimators leg --no-pictures --quiet --out out --seeds 1-2 "
+      "--set scoring.max_gap=0.01");
+  EXPECT_TRUE(holds(gap, "no success: leg on 2 of 2 seeds: gap: no poses for too long, at "))
+      << gap.output;
+  EXPECT_NE(read_file(folder_.path() / "out/summary.md")
+                .value()
+                .find("- No success: leg on 2 of 2 seeds: gap"),
+            std::string::npos);
 }
 
 TEST_F(Pages, DrawingIsShownUnlessQuiet) {

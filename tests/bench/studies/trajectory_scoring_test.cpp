@@ -157,7 +157,7 @@ TEST(TrajectoryScoring, WithoutReferencePointsThereIsNoMList) {
   const auto result = score_trajectories(input);
   ASSERT_TRUE(result);
   EXPECT_FALSE(result->estimates[0].scores.m_list_percent);
-  EXPECT_TRUE(says(result->notes, "M_list is n/a"));
+  EXPECT_TRUE(says(result->notes, "no reference points: no M_list"));
 }
 
 TEST(TrajectorySummary, TheBestOfThoseThatDidNotDivergeCarriesTheStar) {

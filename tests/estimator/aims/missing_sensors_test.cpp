@@ -62,6 +62,8 @@ TEST_F(MissingSensors, AllThereIsHealthy) {
   for (const char* name : {"aims", "aims_d", "tfs_plus", "lio", "leg"}) {
     const EstimatorResult result = run(name, [](Delivery&) { return true; });
     EXPECT_EQ(worst(result), HealthState::kHealthy) << name;
+    EXPECT_EQ(result.health.back().stamp, deliveries_.back().arrival)
+        << name << ": its last row stands at the end of the stream, not at a whole second";
   }
 }
 

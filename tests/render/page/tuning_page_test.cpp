@@ -195,6 +195,27 @@ TEST(TuningPage, TheAnalysisIsThatOfTheMergedSweep) {
   EXPECT_EQ(page.f32(analysis["maps"][0]["measured"]["value"]).size(), 12U);
 }
 
+TEST(TuningPage, ACurveOfOneScenarioHasItsNameAndNotThatOfItsFamily) {
+  const TemporaryFolder folder;
+  Units units(folder.path());
+  put(units.folder() / "plan.yaml", "# aims sweep\nparams: [\"degeneracy.eta=0:6:2\"]\n");
+  for (const char* scenario : {"severity_6", "walk", "stairs"}) {
+    for (const double eta : {0.0, 6.0}) {
+      Json walked = unit(scenario, 1, {}, ate_of(eta, 1.0, 1));
+      walked["settings"] = {{kEta, fmt::format("{}", eta)}};
+      walked["family"] = std::string(scenario) == "severity_6" ? "severity" : "others";
+      units.add(walked);
+    }
+  }
+  units.write_list();
+  std::vector<std::string> names;
+  const DecodedPage page = page_of(folder.path());
+  for (const auto& curve : page.json["estimators"][0]["analyses"][0]["curves"]) {
+    names.push_back(curve["family"]);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"", "severity_6", "others"}));
+}
+
 TEST(TuningPage, WithoutUntunedRunsThereIsNoGain) {
   const TemporaryFolder folder;
   Units units(folder.path());

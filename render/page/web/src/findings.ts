@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/** The result in one sentence: who keeps the length, who loses it, and where. */
+/**
+ * The result in one sentence: who keeps the length, who loses it, and where. To keep it is to succeed, within 5 % of the
+ * distance at every instant, with a length within 1 %; to fail is not to succeed.
+ */
 import { formatNumber, isNumber } from "./format";
 
 /** What is known of an estimator. */
@@ -55,11 +58,29 @@ function listed(names: string[]): string {
   return `${names.slice(0, -1).join(", ")} and ${names[names.length - 1]}`;
 }
 
-/** Those that fail, too: by name if they are few. */
-function moreText(list: Finding[]): string[] {
-  if (list.length === 0) return [];
-  const names = list.length <= 3 ? listed(list.map((each) => each.name)) : `${list.length} more`;
-  return [`${names} ${list.length === 1 ? "fails" : "fail"}, too`];
+/** By name if they are few. */
+function namesOf(list: Finding[]): string {
+  return list.length <= 3 ? listed(list.map((each) => each.name)) : `${list.length} more`;
+}
+
+/** The rest: those that fail, "too" where a shown one does, and those whose length alone is wrong. */
+function moreText(list: Finding[], shown: Finding[]): string[] {
+  const failed = list.filter((each) => !each.success);
+  const inexact = list.filter((each) => each.success);
+  const texts: string[] = [];
+  if (failed.length > 0) {
+    const too = shown.some((each) => !each.success) ? ", too" : "";
+    texts.push(`${namesOf(failed)} ${failed.length === 1 ? "fails" : "fail"}${too}`);
+  }
+  if (inexact.length > 0)
+    texts.push(`${namesOf(inexact)} ${inexact.length === 1 ? "succeeds" : "succeed"}, more than ${kWrong} % off`);
+  return texts;
+}
+
+/** What no estimator does; the limit of a length that is kept, or of a success. */
+function noneText(list: Finding[], what: string): string {
+  if (!list.some((each) => each.percent !== null && each.percent <= kWrong)) return `No estimator keeps ${what} within ${kWrong} %`;
+  return list.some((each) => each.success) ? `No estimator that succeeds keeps ${what} within ${kWrong} %` : "No estimator succeeds";
 }
 
 /** What constrains the axis where an estimate is lost. */
@@ -94,10 +115,10 @@ function lossText(each: Finding, route: Route): string {
   return `${each.name} ${verb} ${formatNumber(loss.most, 2)} m ${where}${place(each.returns)}${unnoticed}`;
 }
 
-/** Those that lose the length, the most telling first: lost at a place before wrong throughout. */
+/** Those that lose the length, the most telling first: failed before inexact, lost at a place before wrong throughout. */
 function losers(list: Finding[]): Finding[] {
   const wrong = list.filter((each) => !each.success || (each.percent ?? 0) > kWrong);
-  const rank = (each: Finding) => (each.loss && !each.loss.early ? 0 : 1);
+  const rank = (each: Finding) => (each.success ? 2 : 0) + (each.loss && !each.loss.early ? 0 : 1);
   return wrong.sort((a, b) => rank(a) - rank(b) || (b.percent ?? 0) - (a.percent ?? 0));
 }
 
@@ -116,9 +137,9 @@ export function finding(list: Finding[], route: Route): string {
     .sort((a, b) => a.percent! - b.percent!);
   const bad = losers(list);
   const shown = bad.slice(0, 2).map((each) => lossText(each, route));
-  shown.push(...moreText(bad.slice(2)));
+  shown.push(...moreText(bad.slice(2), bad.slice(0, 2)));
   const loss = shown.length > 0 ? `; ${shown.join("; ")}` : "";
-  if (good.length === 0) return `No estimator keeps ${what}${loss}.`;
+  if (good.length === 0) return `${noneText(list, what)}${loss}.`;
   const limit = Math.max(kAlike, kFactor * good[0]!.percent!);
   const best = good.filter((each) => each.percent! <= limit);
   const rest = good.length > best.length
@@ -136,7 +157,7 @@ function withoutLengths(list: Finding[]): string {
   const good = list.filter((each) => each.success && isNumber(each.ate)).sort((a, b) => a.ate! - b.ate!);
   const failed = list.filter((each) => !each.success);
   const texts = failed.slice(0, 2).map((each) => each.missing ? `${each.name} ${each.missing}` : each.aside ? asideText(each, "") : `${each.name} fails`);
-  texts.push(...moreText(failed.slice(2)));
+  texts.push(...moreText(failed.slice(2), failed.slice(0, 2)));
   const loss = texts.length > 0 ? `; ${texts.join("; ")}` : "";
   if (good.length === 0) return failed.length > 0 ? `No estimator stays near the truth from its start on${loss}.` : "";
   return `${good[0]!.name} stays nearest to the truth, ATE ${formatNumber(good[0]!.ate, 2)} m${loss}.`;

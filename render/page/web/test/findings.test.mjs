@@ -17,7 +17,7 @@ before(async () => {
   folder = await mkdtemp(path.join(os.tmpdir(), "aims-findings-"));
   const outfile = path.join(folder, "page.mjs");
   const { build } = createRequire(path.join(modules, "any.js"))("esbuild");
-  const sources = ["findings", "run/errors", "run/findings_of", "run/layers", "run/plan", "run/series", "run/state_url", "run/camera3d"];
+  const sources = ["findings", "run/errors", "run/findings_of", "run/layers", "run/plan", "run/series", "run/state_url", "run/camera3d", "run/results", "outcome"];
   await build({
     stdin: {
       contents: sources.map((name) => `export * from "./src/${name}";`).join("\n"),
@@ -122,12 +122,52 @@ test("those that fail are named while they are few", () => {
   assert.match(page.finding([good, ..."abcdef".split("").map(bad)], route), /4 more fail, too\.$/);
 });
 
+test("only those without success fail; of the others it is said what they miss", () => {
+  const route = { corridor: true, length: 100 };
+  const one = (name, percent, success) =>
+    ({ name, success, percent, worst: null, signed: -1, ate: 0.1, loss: null, aside: null, returns: null, healthy: false });
+  assert.equal(page.finding([one("own", 2, true)], route),
+    "No estimator keeps the corridor's length within 1 %; own is 2.0 % short throughout.");
+  assert.equal(page.finding([one("good", 0.1, true), one("a", 30, false), one("b", 20, false), one("c", 10, false), one("bad", 3.9, true)], route),
+    "good keeps the corridor's length within 0.10 %; a is 30 % short throughout; b is 20 % short throughout; c fails, too; bad succeeds, more than 1 % off.");
+  assert.equal(page.finding([one("p", 4, true), one("q", 3, true), one("r", 2, true)], route),
+    "No estimator keeps the corridor's length within 1 %; p is 4.0 % short throughout; q is 3.0 % short throughout; r succeeds, more than 1 % off.");
+  assert.match(page.finding([one("a", 0.5, false), one("b", 2, true)], route), /^No estimator that succeeds keeps the corridor's length within 1 %;/);
+});
+
+test("a mark names why an estimate is no success", () => {
+  assert.equal(page.failureMark("error_limit", 12.6), "✕ at 13 s");
+  assert.equal(page.failureMark("gap", 10), "✕ gap at 10 s");
+  assert.equal(page.failureMark("ends_early", 10), "✕ ends at 10 s");
+  assert.equal(page.failureMark("starts_late", 0), "✕ starts late", "not at the time that it lacks");
+  assert.equal(page.failureMark("no_poses", null), "✕ no poses");
+  assert.equal(page.failureMark("toString", null), "✕ diverged");
+  assert.equal(page.failureCount(["error_limit", "error_limit"], 2, 4), "2 of 4 diverged");
+  assert.equal(page.failureCount(["gap", "gap"], 2, 2), "2 of 2: gap");
+  assert.equal(page.failureCount(["gap", "error_limit"], 2, 2), "2 of 2: 1 gap, 1 diverged");
+});
+
+test("an M_end that is much larger than the ATE of the best is explained", () => {
+  const row = (name, ate_yaw_m, m_end_m, success = true) => ({ name, scores: { ate_yaw_m, m_end_m, success } });
+  assert.match(page.endNote([row("a", 0.02, 0.4), row("b", 0.1, 0.1)]), /M_end of a is much larger than its ATE yaw, since the first pose .* mounting yaw/);
+  assert.equal(page.endNote([row("a", 0.02, 0.05)]), "");
+  assert.equal(page.endNote([row("a", 0.02, 0.4, false)]), "");
+  assert.equal(page.endNote([]), "");
+});
+
+test("an estimate that leaves the plan is named, though it comes back", () => {
+  const extent = { min: [0, -1], max: [80, 1] };
+  const line = (...p) => ({ track: { p, error: p.filter((_, i) => i % 3 === 0) } });
+  assert.ok(page.isBeyond(extent, line(1, 0, 0, 90, 0, 0, 2, 0, 0)));
+  assert.ok(!page.isBeyond(extent, line(1, 0, 0, NaN, NaN, NaN, 2, 0, 0)));
+});
+
 test("a failure in height or sideways is named, though the length is right", () => {
   const route = { corridor: true, length: 100 };
   const one = { success: false, worst: null, signed: -0.96, ate: 3, loss: null, returns: null, healthy: false };
   const falling = { ...one, name: "falling", percent: 0.96, aside: { direction: "height", most: 8.8 } };
   assert.equal(page.finding([falling], route),
-    "No estimator keeps the corridor's length; falling is up to 8.8 m off in height, its length by 0.96 %.");
+    "No estimator succeeds; falling is up to 8.8 m off in height, its length by 0.96 %.");
   const turned = { ...one, name: "turned", percent: null, aside: { direction: "sideways", most: 3.1 } };
   assert.equal(page.finding([turned], route),
     "No estimator stays near the truth from its start on; turned is up to 3.1 m off sideways.");

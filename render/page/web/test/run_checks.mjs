@@ -265,6 +265,8 @@ async function assertCursorMoves(page, payload) {
     Number(document.querySelector("input[name=estimator]:checked").value),
   );
   await assertCursorAgrees(page, payload, chosen);
+  const said = await page.locator(".timeline [data-cursor-at]").first().textContent();
+  assert.equal(said, `at ${(await cursorOf(page)).toFixed(1)} s`);
   const strip = page.locator(".timeline [data-plot]").first();
   // Not to the upper edge: there the controls lie over it.
   await strip.evaluate((each) => each.scrollIntoView({ block: "center" }));
@@ -370,6 +372,8 @@ async function assertOverview(page, payload) {
   for (const part of [0.1, 0.95]) {
     await page.mouse.click(errors.x + part * errors.width, errors.y + 20);
     await settle(page);
+    const said = (await page.textContent('[data-panel="error_distance"] [data-cursor-at]')) ?? "";
+    assert.match(said, /^at [0-9.]+ s, [0-9.]+ m$/, "the values beside it are of that instant");
     assert.equal((await cursorOf(page)) < before, part < 0.5, "a press on the error moves the run's cursor there");
   }
   assert.match(await page.locator(".overview-plan [data-beyond]").innerText(), /Dots: where estimates end\./);

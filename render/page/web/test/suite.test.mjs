@@ -51,6 +51,22 @@ test("a diverged run is stated in words, not by colour alone", { skip }, async (
   assert.equal(await page.locator("#matrix tbody tr").count(), 1);
 });
 
+test("a gap, a late start and a failure to run are named wherever runs are", { skip }, async () => {
+  const data = suite({ names: ["one"] });
+  const [one] = data.suite.scenarios;
+  one.estimators.b = { ...one.estimators.b, successes: 0, success_rate: 0 };
+  for (const run of data.runs) run.estimators.b = { success: false, diverged_at_s: 10, diverged_reason: "gap", ate_m: 0.01 };
+  data.suite.failures = [{ scenario: "one", seed: 2, estimator: "broken, b", message: "no such file" }];
+  const { page, troubles } = await pages.show(data);
+  assert.match(await cell(page, "one", "b").innerText(), /✕ 3 of 3: gap/);
+  assert.match(await page.innerText("[data-verdict]"), /b has a gap on 3 of 3 seeds/);
+  assert.match(await page.locator('#seeds tr[data-row="b"]').innerText(), /✕ 3 of 3: gap/);
+  assert.match(await page.locator('#seeds tr[data-row="broken"]').innerText(), /failed on 1 of 3 seeds/);
+  assert.match(await page.locator('#runs [data-run="one, seed 1"]').innerText(), /✕ gap at 10 s/);
+  assert.match(await page.locator('#runs [data-run="one, seed 2"]').innerText(), /broken[^]*✕ failed/);
+  assert.deepEqual(troubles, []);
+});
+
 test("each run has a small chart, the worst first, that links to its page", { skip }, async () => {
   const data = suite();
   const { page, troubles } = await pages.show(data);

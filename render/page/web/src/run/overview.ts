@@ -3,7 +3,7 @@
 import { drawToFit, lineSample } from "../charts/svg";
 import type { RunPayload, TimeInterval } from "../contract";
 import { h } from "../dom";
-import { isNumber } from "../format";
+import { formatFixed, isNumber } from "../format";
 import { color, onTheme, seriesColor } from "../theme";
 import { errorTrack, mostOf, ownTrack, thin, truePath, type Alignment, type ErrorTrack, type Path } from "./errors";
 import { layered } from "./layers";
@@ -94,10 +94,13 @@ class ErrorChart {
   private panel: Panel | null = null;
 
   constructor(private readonly data: RunPayload, private readonly path: Path, private readonly store: Store) {
-    this.element.addEventListener("pointermove", (event) => this.panel?.showCursor(this.panel.timeAt(event.clientX)));
+    this.element.addEventListener("pointermove", (event) => {
+      const distance = this.panel?.timeAt(event.clientX) ?? NaN;
+      this.show(distance, this.timeOf(distance));
+    });
     this.element.addEventListener("pointerleave", () => this.showCursor());
     this.element.addEventListener("click", (event) => {
-      if (this.panel) store.moveTo(path.t[nearestIndex(path.travelled, this.panel.timeAt(event.clientX))] ?? 0);
+      if (this.panel) store.moveTo(this.timeOf(this.panel.timeAt(event.clientX)));
     });
     store.on(["cursor"], () => this.showCursor());
     onTheme(() => this.build());
@@ -113,8 +116,17 @@ class ErrorChart {
     return this.path.travelled[nearestIndex(this.path.t, seconds)] ?? NaN;
   }
 
+  private timeOf(distance: number): number {
+    return this.path.t[nearestIndex(this.path.travelled, distance)] ?? 0;
+  }
+
+  private show(distance: number, seconds: number): void {
+    this.panel?.showCursor(distance, `at ${formatFixed(seconds, 1)} s, ${formatFixed(distance, 1)} m`);
+  }
+
   private showCursor(): void {
-    this.panel?.showCursor(this.distanceAt(this.store.state.cursor));
+    const { cursor } = this.store.state;
+    this.show(this.distanceAt(cursor), cursor);
   }
 
   private build(): void {

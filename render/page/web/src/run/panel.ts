@@ -3,7 +3,7 @@
 import uPlot from "uplot";
 import { axis as axisOf, tickLabel } from "../charts/axis";
 import { h } from "../dom";
-import { formatNumber, isNumber } from "../format";
+import { formatFixed, formatNumber, isNumber } from "../format";
 import { color } from "../theme";
 import { linearRange, logRange } from "./panel_axes";
 import { drawLevels, drawMarks, drawIntervals, type Backdrop } from "./panel_paint";
@@ -66,6 +66,7 @@ export class Panel {
   private readonly line: HTMLElement;
   private readonly values: { curve: Curve; shown: HTMLElement }[];
   private readonly sigma: HTMLElement | null;
+  private readonly at = h("span", { class: "cursor-at", "data-cursor-at": true });
   private readonly beyond = h("span", { class: "beyond" });
 
   constructor(
@@ -125,6 +126,7 @@ export class Panel {
         this.spec.title,
         this.spec.unit ? h("span", { class: "unit" }, ` ${this.spec.unit}`) : null,
       ),
+      this.at,
       ...legend,
       this.beyond,
     );
@@ -219,11 +221,12 @@ export class Panel {
     };
   }
 
-  /** Moves the line and shows the values there. */
-  showCursor(seconds: number): void {
+  /** Moves the line and shows the values there; `at`: where that is. */
+  showCursor(seconds: number, at = `at ${formatFixed(seconds, 1)} s`): void {
     const position = this.plot.valToPos(seconds, "x");
     const inside = position >= -1 && position <= this.plot.bbox.width / uPlot.pxRatio + 1;
     this.line.hidden = !inside;
+    this.at.textContent = at;
     if (inside) this.line.style.transform = `translateX(${position.toFixed(2)}px)`;
     for (const { curve, shown } of this.values) {
       const value = valueAt(curve.track, seconds);

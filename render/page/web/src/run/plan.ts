@@ -170,10 +170,9 @@ function endOf({ name, index, track }: PlanLine, frame: Frame): SVGElement {
   return svg("circle", { class: "end", "data-end": name, cx, cy, r: Number.isFinite(cx + cy) ? 4 : 0, style: `--paint: ${seriesPaint(index)}` });
 }
 
-/** Does the path end beside the frame? */
-function isBeyond({ min, max }: Extent, { track }: PlanLine): boolean {
-  const at = (axis: 0 | 1) => track.p[track.p.length - 3 + axis] ?? NaN;
-  return ([0, 1] as const).some((axis) => at(axis) < min[axis] || at(axis) > max[axis]);
+/** Does any of the path lie beside the frame? */
+export function isBeyond({ min, max }: Extent, { track }: PlanLine): boolean {
+  return track.error.some((_, i) => ([0, 1] as const).some((axis) => track.p[3 * i + axis]! < min[axis] || track.p[3 * i + axis]! > max[axis]));
 }
 
 function drawn(data: RunPayload, lines: PlanLine[], extent: Extent, outer: number): SVGSVGElement {

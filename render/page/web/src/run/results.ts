@@ -5,6 +5,7 @@ import { at, h, own, section, type Child } from "../dom";
 import { formatFixed, formatNumber, isNumber, kNone } from "../format";
 import { sortableTable, type CellValue, type Column } from "../table";
 import { lineSample } from "../charts/svg";
+import { failureMark } from "../outcome";
 import { expectationsOf, limitsOf } from "./verdict";
 
 interface Row {
@@ -75,6 +76,18 @@ function segmentNames(data: RunPayload): string[] {
   return Array.isArray(segments) ? segments.map((item) => String(own(item, "name") ?? "")) : [];
 }
 
+/** M_end beyond this many times the ATE yaw is that of the first pose. */
+const kMuchLarger = 5;
+
+/** Why M_end of the best is much larger than its ATE; empty if it is not. */
+export function endNote(list: Pick<Row, "name" | "scores">[]): string {
+  const ate = (row: Pick<Row, "scores">) => Number(at(row.scores, "ate_yaw_m") ?? NaN);
+  const best = list.filter((row) => at(row.scores, "success") === true && Number.isFinite(ate(row))).sort((a, b) => ate(a) - ate(b))[0];
+  const end = best ? at(best.scores, "m_end_m") : null;
+  if (!best || !isNumber(end) || end < kMuchLarger * ate(best)) return "";
+  return ` M_end of ${best.name} is much larger than its ATE yaw, since the first pose carries the error of the LiDAR's mounting yaw along the whole way.`;
+}
+
 function paperTable(data: RunPayload, list: Row[]): HTMLElement {
   const columns: Column<Row>[] = [
     nameColumn,
@@ -88,7 +101,7 @@ function paperTable(data: RunPayload, list: Row[]): HTMLElement {
   return sortableTable(list, columns.filter((column) => column.show || column === nameColumn || list.some((row) => column.value(row) !== null)), {
     caption:
       "ATE yaw: aligned by heading and translation; M_end and max |z|: by the first pose. Bold: best of those that " +
-      "succeeded. –: no value. ✕: when it diverged, after the start.",
+      `succeeded. –: no value. ✕: when it diverged, after the start.${endNote(list)}`,
     rowName: (row) => row.name,
   });
 }
@@ -128,8 +141,7 @@ function outcome(data: RunPayload, row: Row): string {
   if (data.scenario.robot?.valid === false) return "invalid run";
   const divergedAt = at(row.scores, "diverged_at_s");
   const reason = at(row.scores, "diverged_reason");
-  const what = reason === "gap" ? "gap " : reason === "ends_early" ? "ends " : reason === "starts_late" ? "starts late, " : "";
-  if (isNumber(divergedAt)) return `✕ ${what}at ${formatFixed(divergedAt - (data.t0_s ?? 0), 0)} s`;
+  if (isNumber(divergedAt)) return failureMark(reason, divergedAt - (data.t0_s ?? 0));
   if (at(row.scores, "diverged_reason") === "no_poses") return "no poses";
   return success(row) ? "yes" : "no";
 }

@@ -2,6 +2,7 @@
 /** What is behind one cell of the matrix: its runs by seed, and all of its scores. */
 import { h } from "../dom";
 import { isNumber } from "../format";
+import { failureMark, reasonName } from "../outcome";
 import { sortableTable, type Column } from "../table";
 import { runsOf, summaryOf, titleOf, type Run, type ScoreSummary, type SuitePayload, type SuiteScenario } from "./model";
 
@@ -28,7 +29,8 @@ function runTable(data: SuitePayload, scenario: SuiteScenario, estimator: string
         if (found["success"] === true) return "success";
         if (found["success"] !== false) return "unknown";
         const at = numberAt(found, "diverged_at_s");
-        const why = typeof found["diverged_reason"] === "string" ? found["diverged_reason"] : "";
+        const why = found["diverged_reason"];
+        if (reasonName(why) !== "diverged") return failureMark(why, at);
         return `✕ diverged${at === null ? "" : ` at ${at.toFixed(1)} s`}${why ? `: ${why}` : ""}`;
       },
     },

@@ -4,9 +4,10 @@ import { unitScale } from "../charts/axis";
 import { choice, tick, type Choice } from "../charts/controls";
 import { h, section } from "../dom";
 import { formatNumber, isNumber, kNone } from "../format";
+import { failureCount } from "../outcome";
 import { details } from "./details";
 import {
-  estimatorsOf, firstScore, kSuccessRate, runsOf, scoreKeysOf, summaryOf, titleOf, valueOf,
+  estimatorsOf, firstScore, kSuccessRate, reasonsOf, runsOf, scoreKeysOf, summaryOf, titleOf, valueOf,
   type SuitePayload, type SuiteScenario,
 } from "./model";
 
@@ -105,6 +106,7 @@ function intervalText(row: SuiteScenario, estimator: string, view: View): string
 }
 
 interface Cells {
+  data: SuitePayload;
   row: SuiteScenario;
   view: View;
   shade: (value: number) => number;
@@ -112,7 +114,7 @@ interface Cells {
   open: (scenario: SuiteScenario, estimator: string) => void;
 }
 
-function cell({ row, view, shade, best, open }: Cells, estimator: string): HTMLElement {
+function cell({ data, row, view, shade, best, open }: Cells, estimator: string): HTMLElement {
   const summary = summaryOf(row, estimator);
   if (!summary) {
     const why = (row.invalid?.length ?? 0) > 0 ? "no valid run" : "not run";
@@ -121,13 +123,14 @@ function cell({ row, view, shade, best, open }: Cells, estimator: string): HTMLE
   const value = valueOf(row, estimator, view.score, view.statistic);
   const diverged = summary.runs - summary.successes;
   const text = formatNumber(value);
-  const of = diverged > 0 ? `✕ ${diverged} of ${summary.runs} diverged` : `${summary.runs} of ${summary.runs}`;
+  const why = failureCount(reasonsOf(data, row.name, estimator), diverged, summary.runs);
+  const of = diverged > 0 ? `✕ ${why}` : `${summary.runs} of ${summary.runs}`;
   const interval = intervalText(row, estimator, view);
   const amount = isNumber(value) ? Math.round(100 * shade(value)) : 0;
   const button = h("button", {
     type: "button", class: "cell", tabindex: -1,
     "aria-label": `${row.name}, ${estimator}: ${text === kNone ? "no value" : text}` +
-      `${interval ? `, ${interval}` : ""}; ${diverged > 0 ? `${diverged} of ${summary.runs} diverged` : "none diverged"}`,
+      `${interval ? `, ${interval}` : ""}; ${diverged > 0 ? why : "none diverged"}`,
     onclick: () => open(row, estimator),
   }, h("span", { class: "value" }, text),
     interval ? h("span", { class: "interval" }, interval) : null,
@@ -203,7 +206,7 @@ function matrix(data: SuitePayload, view: View, open: Cells["open"], changed: ()
   const anyLink = data.runs.some((run) => run.href);
   const body = rows.map((row) => {
     const shade = view.shade === "row" ? unitScale(numbers([row], estimators, view)).at : byMatrix;
-    const cells: Cells = { row, view, shade, best: bestOf(row, estimators, view), open };
+    const cells: Cells = { data, row, view, shade, best: bestOf(row, estimators, view), open };
     return h("tr", { "data-row": row.name }, h("th", { scope: "row", title: levelText(row) }, ...breakable(row.name)),
       ...estimators.map((each) => cell(cells, each)), anyLink ? links(data, row) : null);
   });
@@ -252,5 +255,5 @@ export function matrixSection(data: SuitePayload): HTMLElement {
       choice("Scenarios", groupChoices(data), "", change("group")), search,
       tick("only with diverged runs", false, change("divergedOnly"))),
     place, shown,
-    h("p", { class: "soft" }, "Bold: best of the row. ✕ and hatching: runs diverged; the value is over the runs that have one."));
+    h("p", { class: "soft" }, "Bold: best of the row. ✕ and hatching: runs without success, which diverged where no other reason is named; the value is over the runs that have one."));
 }

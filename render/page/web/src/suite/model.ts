@@ -296,6 +296,20 @@ export function valueOf(
   return isNumber(value) ? value : null;
 }
 
+/** Why an estimator did not succeed, of each valid run on which it did not. */
+export function reasonsOf(data: SuitePayload, scenario: string, estimator: string): unknown[] {
+  return runsOf(data, scenario).filter((run) => !run.invalid).flatMap((run) => {
+    const found = own<Run["estimators"][string]>(run.estimators, estimator);
+    return found?.["success"] === false ? [found["diverged_reason"]] : [];
+  });
+}
+
+/** Estimators that failed to run on a seed of a scenario. */
+export function failedOn(data: SuitePayload, scenario: string, seed: number): string[] {
+  return (data.suite.failures ?? []).filter((each) => each.scenario === scenario && each.seed === seed)
+    .flatMap((each) => (each.estimator ?? "").split(", ")).filter((name) => name !== "");
+}
+
 /** Pages and scores of that scenario's runs, by seed. */
 export function runsOf(data: SuitePayload, scenario: string): Run[] {
   return data.runs.filter((run) => run.scenario === scenario);

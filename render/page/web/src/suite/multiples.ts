@@ -4,9 +4,10 @@ import { unitScale } from "../charts/axis";
 import { choice } from "../charts/controls";
 import { seriesPaint } from "../charts/svg";
 import { h, section } from "../dom";
-import { formatFixed, formatNumber, isNumber, kNone } from "../format";
+import { formatNumber, isNumber, kNone } from "../format";
+import { failureMark } from "../outcome";
 import { seriesDash } from "../palette";
-import { estimatorsOf, firstScore, styleOf, titleOf, type Run, type SuitePayload } from "./model";
+import { estimatorsOf, failedOn, firstScore, styleOf, titleOf, type Run, type SuitePayload } from "./model";
 
 /** Charts shown before the reader asks for all. */
 const kShown = 24;
@@ -17,6 +18,12 @@ interface Bar {
   value: number | null;
   diverged: boolean;
   at: number | null;
+  reason: unknown;
+}
+
+/** One that failed to run. */
+function failedBar(estimator: string, index: number): Bar {
+  return { estimator, index, value: null, diverged: true, at: null, reason: "failed" };
 }
 
 function barsOf(run: Run, estimators: string[], score: string, styles?: (name: string) => number): Bar[] {
@@ -32,9 +39,16 @@ function barsOf(run: Run, estimators: string[], score: string, styles?: (name: s
         value: isNumber(value) ? value : null,
         diverged: found["success"] === false,
         at: isNumber(at) ? at : null,
+        reason: found["diverged_reason"],
       },
     ];
   });
+}
+
+/** Of every estimator, also of those that failed to run on that seed. */
+function runBars(data: SuitePayload, run: Run, estimators: string[], score: string): Bar[] {
+  const failed = failedOn(data, run.scenario, run.seed).filter((name) => !Object.hasOwn(run.estimators, name));
+  return [...barsOf(run, estimators, score, (name) => styleOf(data, name)), ...failed.map((name) => failedBar(name, styleOf(data, name)))];
 }
 
 /** Runs by how many estimators diverged, then by their largest score; invalid runs come last. */
@@ -76,7 +90,6 @@ function barRow(bar: Bar, at: (value: number) => number): HTMLElement {
   mark.style.width = `${width.toFixed(1)}%`;
   mark.style.setProperty("--paint", seriesPaint(bar.index));
   if (!bar.diverged) mark.style.setProperty("--pattern", patternOf(bar.index));
-  const diverged = bar.at === null ? "✕ diverged" : `✕ at ${formatFixed(bar.at, 0)} s`;
   return h(
     "div",
     { class: "small-row", "data-estimator": bar.estimator },
@@ -86,7 +99,7 @@ function barRow(bar: Bar, at: (value: number) => number): HTMLElement {
       "span",
       { class: "small-value" },
       bar.value === null && !bar.diverged ? kNone : bar.value === null ? "" : formatNumber(bar.value),
-      bar.diverged ? h("b", {}, ` ${diverged}`) : null,
+      bar.diverged ? h("b", {}, ` ${failureMark(bar.reason, bar.at)}`) : null,
     ),
   );
 }
@@ -125,7 +138,7 @@ export function multiplesSection(data: SuitePayload): HTMLElement | null {
       `${formatNumber(scale.high)}${scale.law}; worst first: most diverged estimators, then the largest value.`;
     charts.replaceChildren(
       ...(all ? ordered : ordered.slice(0, kShown)).map((run) =>
-        chart(run, barsOf(run, estimators, score, (name) => styleOf(data, name)), scale.at)),
+        chart(run, runBars(data, run, estimators, score), scale.at)),
     );
     more.hidden = all;
   };

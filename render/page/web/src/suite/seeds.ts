@@ -6,9 +6,10 @@ import { lineSample } from "../charts/svg";
 import { at, h, own, section } from "../dom";
 import { finding, type Finding } from "../findings";
 import { formatNumber, isNumber, kNone } from "../format";
+import { failureCount, reasonName } from "../outcome";
 import { sortableTable, type Column } from "../table";
 import {
-  estimatorsOf, firstScore, runsOf, styleOf, summaryOf, titleOf,
+  estimatorsOf, firstScore, reasonsOf, runsOf, styleOf, summaryOf, titleOf,
   type EstimatorSummary, type Headline, type SuitePayload, type SuiteScenario,
 } from "./model";
 
@@ -45,12 +46,20 @@ function successText(row: Row): string {
   return `${successes} of ${runs}${rate}${row.failed > 0 ? `, failed on ${row.failed} of ${row.seeds} seeds` : ""}`;
 }
 
+/** Why runs are no success, where that is not their error. */
+function reasonText(data: SuitePayload, scenario: string, { name, summary }: Row): string {
+  const reasons = reasonsOf(data, scenario, name);
+  if (reasons.every((each) => reasonName(each) === "diverged")) return "";
+  return ` ✕ ${failureCount(reasons, summary.runs - summary.successes, summary.runs)}`;
+}
+
 function table(data: SuitePayload, scenario: SuiteScenario): HTMLElement {
   const failures = (data.suite.failures ?? []).filter((each) => each.scenario === scenario.name && each.estimator);
-  const names = new Set([...Object.keys(scenario.estimators), ...failures.map((each) => each.estimator!)]);
+  const failed = failures.flatMap((each) => each.estimator!.split(", "));
+  const names = new Set([...Object.keys(scenario.estimators), ...failed]);
   const rows = [...names].map((name): Row => ({
     name, summary: summaryOf(scenario, name) ?? { runs: 0, successes: 0, success_rate: null, scores: {} },
-    failed: failures.filter((each) => each.estimator === name).length, seeds: scenario.seeds.length,
+    failed: failed.filter((each) => each === name).length, seeds: scenario.seeds.length,
   }));
   const columns: Column<Row>[] = [
     {
@@ -60,7 +69,7 @@ function table(data: SuitePayload, scenario: SuiteScenario): HTMLElement {
     ...data.headline.map(scoreColumn),
     {
       title: "within 5 %", value: (row) => row.summary.successes,
-      hint: "95 % interval of the rate (Wilson)", show: successText,
+      hint: "95 % interval of the rate (Wilson)", show: (row) => successText(row) + reasonText(data, scenario.name, row),
     },
     {
       title: "within 1 %", value: (row) => row.summary.successes_1_percent,
@@ -85,7 +94,18 @@ function boxes(data: SuitePayload, scenario: SuiteScenario, score: string): HTML
   return boxPlot(groups, { label: `${title} of each estimator over the seeds of ${scenario.name}`, xLabel: `${title}${unit ? ` [${unit}]` : ""}` });
 }
 
-function findingOf(scenario: SuiteScenario, name: string): Finding {
+/** "has a gap on 4 of 4 seeds", where most runs fail by poses that are missing; null: they do not. */
+function missingText(data: SuitePayload, scenario: string, name: string, runs: number): string | null {
+  const verbs: Record<string, string> = { gap: "has a gap", starts_late: "starts late", ends_early: "ends early", no_poses: "has no poses" };
+  const reasons = reasonsOf(data, scenario, name);
+  for (const [reason, verb] of Object.entries(verbs)) {
+    const count = reasons.filter((each) => each === reason).length;
+    if (2 * count >= runs && count > 0) return `${verb} on ${count} of ${runs} seeds`;
+  }
+  return null;
+}
+
+function findingOf(data: SuitePayload, scenario: SuiteScenario, name: string): Finding {
   const summary = summaryOf(scenario, name)!;
   const number = (key: string, statistic: "median" | "worst") => {
     const value = own<Record<string, unknown>>(summary.scores, key)?.[statistic];
@@ -95,6 +115,7 @@ function findingOf(scenario: SuiteScenario, name: string): Finding {
     name, success: summary.successes > summary.runs / 2, percent: number("m_list_percent.all", "median"),
     worst: summary.runs > 1 ? number("m_list_percent.all", "worst") : null, signed: null,
     ate: number("ate_yaw_m", "median"), loss: null, aside: null, returns: null, healthy: false,
+    missing: missingText(data, scenario.name, name, summary.runs),
   };
 }
 
@@ -102,7 +123,7 @@ function findingOf(scenario: SuiteScenario, name: string): Finding {
 export function seedsVerdict(data: SuitePayload): HTMLElement | null {
   const only = data.suite.scenarios[0];
   if (data.suite.scenarios.length !== 1 || !only) return null;
-  const text = finding(Object.keys(only.estimators).map((name) => findingOf(only, name)), { corridor: data.corridor === true, length: Infinity });
+  const text = finding(Object.keys(only.estimators).map((name) => findingOf(data, only, name)), { corridor: data.corridor === true, length: Infinity });
   if (!text) return null;
   const runs = only.seeds.length - (only.invalid?.length ?? 0);
   return h("div", { class: "verdict", "data-verdict": "plain", role: "status" },
