@@ -23,8 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The scenario of a run with the estimators of its scores; without more than a name where its
-/// configuration cannot be read.
+/// The scenario of a run, without its estimators; without more than a name where its configuration
+/// cannot be read.
 Scenario scenario_of(const fs::path& run_folder, const RunRecord& record, Json& notes) {
   Scenario scenario;
   scenario.name = text_in(record.scores, "scenario");
@@ -35,10 +35,16 @@ Scenario scenario_of(const fs::path& run_folder, const RunRecord& record, Json& 
     if (read) scenario = std::move(*read);
   }
   scenario.run.clear();
-  for (const auto& [name, unused] : member(record.scores, "estimators").items()) {
-    scenario.run.push_back(name);
-  }
   return scenario;
+}
+
+/// Adds the estimators of a run to `names`, also those that failed.
+void add_estimators(const RunRecord& record, std::vector<std::string>& names) {
+  const auto add = [&](const std::string& name) {
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  };
+  for (const auto& [name, unused] : member(record.scores, "estimators").items()) add(name);
+  for (const Json& each : member(record.scores, "failures")) add(text_in(each, "estimator"));
 }
 
 /// What summary.json says of all seeds: failures, settings, whether all jobs have ended.
@@ -66,16 +72,13 @@ std::string seeds_text(const std::vector<RunRecord>& runs) {
   return fmt::format("{}", fmt::join(seeds, ", "));
 }
 
-}  // namespace
-
-std::vector<fs::path> seed_folders(const fs::path& folder) {
+/// The folders seed-N that hold a run, by N; one on which every estimator failed has no truth.
+std::vector<fs::path> folders_of_seeds(const fs::path& folder) {
   std::vector<fs::path> runs;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
     const bool is_seed = entry.path().filename().string().starts_with("seed-");
-    if (is_seed && holds_run(entry.path()) && fs::exists(entry.path() / "truth.tum")) {
-      runs.push_back(entry.path());
-    }
+    if (is_seed && holds_run(entry.path())) runs.push_back(entry.path());
   }
   const auto shorter_first = [](const fs::path& path) {
     const std::string name = path.filename().string();
@@ -85,17 +88,26 @@ std::vector<fs::path> seed_folders(const fs::path& folder) {
   return runs;
 }
 
+}  // namespace
+
+std::vector<fs::path> seed_folders(const fs::path& folder) {
+  std::vector<fs::path> runs = folders_of_seeds(folder);
+  std::erase_if(runs, [](const fs::path& each) { return !fs::exists(each / "truth.tum"); });
+  return runs;
+}
+
 Result<PageData> seeds_page(const fs::path& folder, const PageOptions& options) {
   if (auto ok = check_links(folder); !ok) return tl::unexpected(ok.error());
   Json notes = Json::array();
   Json rows = Json::array();
   SuiteCase only;
   const fs::path page_folder = options.out_folder.empty() ? folder : options.out_folder;
-  for (const fs::path& run_folder : seed_folders(folder)) {
+  for (const fs::path& run_folder : folders_of_seeds(folder)) {
     if (!fs::exists(run_folder / "scores.json")) continue;
     auto record = read_record(run_folder / "scores.json");
     if (!record) return tl::unexpected(record.error());
     if (only.runs.empty()) only.scenario = scenario_of(run_folder, *record, notes);
+    add_estimators(*record, only.scenario.run);
     rows.push_back(
         suite_run_json(only.scenario.name, record->seed, &*record, run_folder, page_folder));
     only.runs.push_back(std::move(*record));

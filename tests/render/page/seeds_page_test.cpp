@@ -76,6 +76,23 @@ TEST(SeedsPage, SaysWhoFailedAndWhatWasSet) {
   EXPECT_EQ(page->json["notes"].size(), 1U) << page->json["notes"];
 }
 
+TEST(SeedsPage, CountsASeedOnWhichEveryEstimatorFailed) {
+  const TemporaryFolder folder;
+  write_seeds(folder.path(), {1, 2});
+  const fs::path failed = folder.path() / "seed-1";
+  fs::remove(failed / "truth.tum");
+  Json scores = Json::parse(testing::content(failed / "scores.json"));
+  scores["estimators"] = Json::object();
+  scores["failures"] = {{{"estimator", "exact"}, {"message", "killed"}}};
+  testing::put(failed / "scores.json", scores.dump(2));
+  auto page = seeds_page(folder.path(), {});
+  ASSERT_TRUE(page) << page.error().message;
+  EXPECT_EQ(page->title, "made_up, seeds 1–2");
+  const Json scenario = page->json["suite"]["scenarios"][0];
+  EXPECT_EQ(scenario["estimators"]["exact"]["runs"], 2);
+  EXPECT_EQ(seed_folders(folder.path()).size(), 1U) << "it has no page of its own";
+}
+
 TEST(SeedsPage, CarriesTheStylesOfAllPages) {
   const TemporaryFolder folder;
   write_seeds(folder.path(), {1, 2});

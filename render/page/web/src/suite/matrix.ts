@@ -91,9 +91,10 @@ function levelText(row: SuiteScenario): string | null {
   return row.family && isNumber(row.level) ? `${row.family} ${row.level} ${row.level_unit ?? ""}` : null;
 }
 
-/** Text of the best value of a row: the smallest, for the success rate the largest. */
-function bestOf(row: SuiteScenario, estimators: string[], view: View): string | null {
-  const values = numbers([row], estimators, view);
+/** Text of the best value of a row, of those that failed on no run: the smallest, for the success rate the largest. */
+function bestOf(data: SuitePayload, row: SuiteScenario, estimators: string[], view: View): string | null {
+  const whole = estimators.filter((name) => !reasonsOf(data, row.name, name).includes("failed"));
+  const values = numbers([row], whole, view);
   if (values.length < 2 || view.score.includes("signed")) return null;
   return formatNumber(view.score === kSuccessRate ? Math.max(...values) : Math.min(...values));
 }
@@ -136,7 +137,7 @@ function cell({ data, row, view, shade, best, open }: Cells, estimator: string):
     interval ? h("span", { class: "interval" }, interval) : null,
     diverged > 0 || summary.runs > 1 ? h("span", { class: "runs" }, of) : null);
   return h("td", {
-    class: ["matrix-cell", diverged > 0 ? "diverged" : "", text === best ? "best" : ""].join(" ").trim(),
+    class: ["matrix-cell", diverged > 0 ? "diverged" : "", text === best && !reasonsOf(data, row.name, estimator).includes("failed") ? "best" : ""].join(" ").trim(),
     style: `--shade: ${view.score === kSuccessRate ? 100 - amount : amount}%`,
     "data-value": isNumber(value) ? value : null, "data-estimator": estimator,
   }, button);
@@ -206,7 +207,7 @@ function matrix(data: SuitePayload, view: View, open: Cells["open"], changed: ()
   const anyLink = data.runs.some((run) => run.href);
   const body = rows.map((row) => {
     const shade = view.shade === "row" ? unitScale(numbers([row], estimators, view)).at : byMatrix;
-    const cells: Cells = { data, row, view, shade, best: bestOf(row, estimators, view), open };
+    const cells: Cells = { data, row, view, shade, best: bestOf(data, row, estimators, view), open };
     return h("tr", { "data-row": row.name }, h("th", { scope: "row", title: levelText(row) }, ...breakable(row.name)),
       ...estimators.map((each) => cell(cells, each)), anyLink ? links(data, row) : null);
   });

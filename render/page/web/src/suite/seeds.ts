@@ -25,7 +25,7 @@ interface Row {
 function scoreColumn(score: Headline): Column<Row> {
   const of = (row: Row) => own<{ median: unknown; worst: unknown }>(row.summary.scores, score.key);
   return {
-    title: score.title, unit: score.unit, best: "low", eligible: (row) => row.summary.successes > 0,
+    title: score.title, unit: score.unit, best: "low", eligible: (row) => row.summary.successes > 0 && row.failed === 0,
     hint: "median over seeds (worst)",
     value: (row) => {
       const median = of(row)?.median;
@@ -49,7 +49,7 @@ function successText(row: Row): string {
 /** Why runs are no success, where that is not their error. */
 function reasonText(data: SuitePayload, scenario: string, { name, summary }: Row): string {
   const reasons = reasonsOf(data, scenario, name);
-  if (reasons.every((each) => reasonName(each) === "diverged")) return "";
+  if (reasons.every((each) => ["diverged", "failed"].includes(reasonName(each)))) return "";
   return ` ✕ ${failureCount(reasons, summary.runs - summary.successes, summary.runs)}`;
 }
 
@@ -77,7 +77,7 @@ function table(data: SuitePayload, scenario: SuiteScenario): HTMLElement {
     },
   ];
   return sortableTable(rows, columns.filter((column, i) => i === 0 || rows.some((row) => column.value(row) !== null)), {
-    caption: "Median over seeds (worst). ✕: no run succeeded. Bold: best of those with a success. Within 5 % (success), 1 %: position error of the distance travelled so far; interval: 95 %.", rowName: (row) => row.name,
+    caption: "Median over seeds (worst). ✕: no run succeeded. Bold: best of those with a success that failed on no seed. Within 5 % (success), 1 %: position error of the distance travelled so far; interval: 95 %.", rowName: (row) => row.name,
   });
 }
 
@@ -98,6 +98,8 @@ function boxes(data: SuitePayload, scenario: SuiteScenario, score: string): HTML
 function missingText(data: SuitePayload, scenario: string, name: string, runs: number): string | null {
   const verbs: Record<string, string> = { gap: "has a gap", starts_late: "starts late", ends_early: "ends early", no_poses: "has no poses" };
   const reasons = reasonsOf(data, scenario, name);
+  const failed = reasons.filter((each) => each === "failed").length;
+  if (failed > 0) return `failed to run on ${failed} of ${runs} seeds`;
   for (const [reason, verb] of Object.entries(verbs)) {
     const count = reasons.filter((each) => each === reason).length;
     if (2 * count >= runs && count > 0) return `${verb} on ${count} of ${runs} seeds`;
@@ -107,12 +109,13 @@ function missingText(data: SuitePayload, scenario: string, name: string, runs: n
 
 function findingOf(data: SuitePayload, scenario: SuiteScenario, name: string): Finding {
   const summary = summaryOf(scenario, name)!;
+  const ranOnAll = !reasonsOf(data, scenario.name, name).includes("failed");
   const number = (key: string, statistic: "median" | "worst") => {
     const value = own<Record<string, unknown>>(summary.scores, key)?.[statistic];
     return isNumber(value) ? value : null;
   };
   return {
-    name, success: summary.successes > summary.runs / 2, percent: number("m_list_percent.all", "median"),
+    name, success: ranOnAll && summary.successes > summary.runs / 2, percent: number("m_list_percent.all", "median"),
     worst: summary.runs > 1 ? number("m_list_percent.all", "worst") : null, signed: null,
     ate: number("ate_yaw_m", "median"), loss: null, aside: null, returns: null, healthy: false,
     missing: missingText(data, scenario.name, name, summary.runs),
