@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "bench/scoring/json_text.hpp"
+#include "bench/scoring/score_record.hpp"
 #include "bench/tuning/objective.hpp"
 #include "bench/tuning/sweep_store.hpp"
 #include "cli/commands.hpp"
@@ -37,6 +41,17 @@ void print_open(const MergedSweep& sweep) {
   if (open > kMostShown) print_out("and {} more\n", open - kMostShown);
 }
 
+/// Whether no job that is done has the score, as of a misspelt key.
+bool lacks_score(const MergedSweep& sweep, const std::string& key) {
+  bool done = false;
+  for (const MergedJob& job : sweep.jobs) {
+    if (job.outcome() != "done") continue;
+    done = true;
+    if (number_at(value_in(job.file, "scores", Json()), key)) return false;
+  }
+  return done;
+}
+
 int merge_command(const MergeArguments& arguments) {
   const std::vector<fs::path> folders(arguments.folders.begin(), arguments.folders.end());
   if (folders.size() > 1 && arguments.shared.out.empty()) {
@@ -49,6 +64,11 @@ int merge_command(const MergeArguments& arguments) {
       arguments.shared.out.empty() ? folders.front() : fs::path(arguments.shared.out);
   const auto sweep = merge_sweeps(folders);
   if (!sweep) return bad_input("merge", sweep.error());
+  if (const std::string& key = arguments.objective.score; lacks_score(*sweep, key)) {
+    return bad_input("merge", {fmt::format("--score: no job has a score '{}'; expected a key of "
+                                           "scores.json, e.g. ate_yaw_m; nothing was written",
+                                           key)});
+  }
   if (auto written = write_results(*sweep, arguments.objective, out); !written) {
     return bad_input("merge", written.error());
   }

@@ -167,7 +167,7 @@ std::string outcome_of(const RunRecord& run, const Row& row) {
   if (value_in(own, "success", false)) return "yes";
   const std::string reason = value_in(own, "diverged_reason", "no");
   const auto at = number_at(own, "diverged_at_s");
-  if (!at) return reason.empty() ? "no" : reason;
+  if (!at || reason == "starts_late") return reason.empty() ? "no" : reason;
   const double start = value_in(value_in(run.scores, "truth", Json()), "start_s", 0.0);
   return fmt::format("{} at {:.1f} s", reason.empty() ? "diverged" : reason, *at - start);
 }

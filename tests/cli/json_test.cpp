@@ -22,7 +22,9 @@ class JsonOutput : public testing::CommandLine {
     EXPECT_EQ(outcome.exit_code, 0) << arguments << "\n" << outcome.output;
     Json json = Json::parse(outcome.output, nullptr, false);
     EXPECT_TRUE(json.is_object()) << arguments << "\n" << outcome.output;
-    if (json.is_object()) EXPECT_EQ(json.value("schema", ""), schema) << arguments;
+    if (json.is_object()) {
+      EXPECT_EQ(json.value("schema", ""), schema) << arguments;
+    }
     return json;
   }
 };

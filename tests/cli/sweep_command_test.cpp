@@ -65,6 +65,9 @@ TEST_F(Sweeps, AreDoneOnceContinuedAndMerged) {
   for (const char* name : {"sweep.md", "sweep.csv", "sweep.sqlite", "page.html"}) {
     EXPECT_TRUE(fs::exists(folder_.path() / "out" / name)) << name;
   }
+  const Outcome misspelt = aims("merge out --score ate_yaw");
+  EXPECT_EQ(misspelt.exit_code, 2) << misspelt.output;
+  EXPECT_TRUE(holds(misspelt, "no job has a score 'ate_yaw'")) << misspelt.output;
   const Outcome merged = aims("merge out");
   EXPECT_EQ(merged.exit_code, 0) << merged.output;
   EXPECT_TRUE(holds(merged, "4 of 4 jobs done: out/sweep.sqlite")) << merged.output;

@@ -81,7 +81,7 @@ TEST_F(Store, ReadsBackItsListAndResultsAsRecords) {
   EXPECT_EQ(record.scores["simulated_s"], 4.0);
 }
 
-TEST_F(Store, LeavesFailuresOutOfRecords) {
+TEST_F(Store, RecordsFailuresWithoutScores) {
   ASSERT_TRUE(claim_store(out_));
   const JobStore store(out_);
   const std::vector<Job> jobs = two_jobs();
@@ -90,11 +90,17 @@ TEST_F(Store, LeavesFailuresOutOfRecords) {
   crashed.outcome = JobOutcome::kCrashed;
   crashed.message = "signal 11";
   ASSERT_TRUE(store.put(jobs[0], crashed));
-  EXPECT_FALSE(read_results(out_)) << "nothing has finished";
+  const auto alone = read_results(out_);
+  ASSERT_TRUE(alone) << "a crash is a lost success, also where nobody else has a result";
+  EXPECT_TRUE(failed_in(alone->at("short").at(0), "leg"));
   ASSERT_TRUE(store.put(jobs[1], done(0.2)));
   const auto results = read_results(out_);
   ASSERT_TRUE(results);
   EXPECT_FALSE(find_score(results->at("short").at(0), "leg", "ate_m"));
+  JobResult unknown;
+  unknown.outcome = JobOutcome::kNotSimulated;
+  for (const Job& job : jobs) ASSERT_TRUE(store.put(job, unknown));
+  EXPECT_FALSE(read_results(out_)) << "no failure of an estimator";
 }
 
 TEST_F(Store, RefusesAFolderInUseOrOfSomethingElse) {
