@@ -63,7 +63,9 @@ int compare_command(const CompareArguments& arguments) {
     if (!written) return bad_input(kCompareName, written.error());
   }
   if (!arguments.fail_on_worse) return kOk;
-  if (count(comparison, ChangeVerdict::kWorse) > 0 || !comparison.fails_now.empty()) return kExpectationFailed;
+  if (count(comparison, ChangeVerdict::kWorse) > 0 || !comparison.fails_now.empty()) {
+    return kExpectationFailed;
+  }
   if (const auto seeds = too_few_seeds(comparison)) {
     return bad_input(kCompareName,
                      Error{fmt::format("--fail-on-worse: expected at least {} common seeds, "

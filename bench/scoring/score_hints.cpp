@@ -224,8 +224,7 @@ std::optional<std::string> world_hint(const Trajectory& estimate, const Trajecto
   }
   if (!fits(mirrored, enough)) return std::nullopt;
   return "positions fit ten times better with one axis mirrored: one world is left-handed, "
-         "expected "
-         "right-handed ones";
+         "expected right-handed ones";
 }
 
 std::optional<std::string> body_frame_hint(const Trajectory& estimate, const Trajectory& truth,
@@ -249,9 +248,8 @@ std::optional<std::string> body_frame_hint(const Trajectory& estimate, const Tra
   const Pose option = Pose{turn, Eigen::Vector3d::Zero()} * T_body_estimate;
   return fmt::format(
       "its body frame is turned by {} against the truth's: --extrinsic '{}' takes it to the "
-      "truth's "
-      "(the ATE aligned by heading does not depend on it; heading error, RPE and ATE from the "
-      "start do)",
+      "truth's (the ATE aligned by heading does not depend on it; heading error, RPE and ATE from "
+      "the start do)",
       turn_text(turn), extrinsic_text(option));
 }
 

@@ -250,8 +250,9 @@ std::string score_legend(std::span<const RunRecord> runs, const ScoreConfig& sco
   const ScoreConfig usual;
   if (scoring.max_error_offset != usual.max_error_offset ||
       scoring.max_error_per_path != usual.max_error_per_path) {
-    text += fmt::format("\"within 5 %\" is here within the larger of {:g} m and {:g} % of the distance, as set.\n",
-                        scoring.max_error_offset, 100.0 * scoring.max_error_per_path);
+    text += fmt::format(
+        "\"within 5 %\" is here within the larger of {:g} m and {:g} % of the distance, as set.\n",
+        scoring.max_error_offset, 100.0 * scoring.max_error_per_path);
   }
   if (several) {
     text +=

@@ -80,7 +80,9 @@ bool Sensitivity::is_negligible(std::size_t parameter) const {
 
 Result<Sensitivity> sensitivity_of(const ResponseTable& table, const Objective& objective,
                                    const std::string& family) {
-  if (objective.divergence_penalty > 0.0 && all_diverged(table)) return failure("every run diverged or failed");
+  if (objective.divergence_penalty > 0.0 && all_diverged(table)) {
+    return failure("every run diverged or failed");
+  }
   const Response response = response_over(table, objective, cases_of(table, family));
   Sensitivity sensitivity;
   sensitivity.points = static_cast<std::size_t>(response.values.size());

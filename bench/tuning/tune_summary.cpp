@@ -253,8 +253,8 @@ std::string held_out_verdict(const TuneResult& result) {
   }
   if (keeps_defaults(result) && result.tables.size() > 1) {
     return fmt::format(
-        "keep the defaults: the Pareto front has no other point: none of the {} others is better in "
-        "an objective on the sequences tuned on",
+        "keep the defaults: the Pareto front has no other point: none of the {} others is better "
+        "in an objective on the sequences tuned on",
         result.generation.size() - 1);
   }
   if (keeps_defaults(result)) {

@@ -258,7 +258,8 @@ TEST(Effect, OfASinglePointOrASmallOneIsSaidToBeThat) {
   const auto of = [&](double base, double effect, double noise) {
     return table_of(ranges, {0.5}, design(DesignKind::kGrid, ranges, 0, 1), 6,
                     [=](const std::vector<double>& point, const ResponseCase& on) {
-                      RandomStream random = rng(on.seed, fmt::format("{} {}", point[0], on.scenario));
+                      RandomStream random =
+                          rng(on.seed, fmt::format("{} {}", point[0], on.scenario));
                       return base *
                              std::exp((point[0] == 1.0 ? effect : 0.0) + noise * random.normal());
                     });

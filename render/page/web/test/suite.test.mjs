@@ -67,6 +67,20 @@ test("a gap, a late start and a failure to run are named wherever runs are", { s
   assert.deepEqual(troubles, []);
 });
 
+test("one that failed to run on a seed is best of nothing, and the headline says so", { skip }, async () => {
+  const data = suite({ names: ["one"] });
+  const [one] = data.suite.scenarios;
+  delete data.runs.find((run) => run.seed === 2).estimators.a;
+  one.estimators.a = { ...one.estimators.a, successes: 2, success_rate: 2 / 3 };
+  data.suite.failures = [{ scenario: "one", seed: 2, estimator: "a", message: "killed" }];
+  const { page, troubles } = await pages.show(data);
+  assert.match(await cell(page, "one", "a").innerText(), /✕ 1 of 3: failed/);
+  assert.match(await page.innerText("[data-verdict]"), /a failed to run on 1 of 3 seeds/);
+  assert.match(await page.locator('#seeds tr[data-row="a"]').innerText(), /2 of 3.*failed on 1 of 3 seeds/);
+  assert.equal(await page.locator('#seeds tr[data-row="a"] .best').count(), 0);
+  assert.deepEqual(troubles, []);
+});
+
 test("each run has a small chart, the worst first, that links to its page", { skip }, async () => {
   const data = suite();
   const { page, troubles } = await pages.show(data);

@@ -299,8 +299,8 @@ export function valueOf(
 /** Why an estimator did not succeed, of each valid run on which it did not. */
 export function reasonsOf(data: SuitePayload, scenario: string, estimator: string): unknown[] {
   return runsOf(data, scenario).filter((run) => !run.invalid).flatMap((run) => {
-    if (failedOn(data, scenario, run.seed).includes(estimator)) return ["failed"];
     const found = own<Run["estimators"][string]>(run.estimators, estimator);
+    if (!found && failedOn(data, scenario, run.seed).includes(estimator)) return ["failed"];
     return found?.["success"] === false ? [found["diverged_reason"]] : [];
   });
 }
