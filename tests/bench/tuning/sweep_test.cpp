@@ -245,7 +245,7 @@ TEST_F(Sweep, OfAnotherPlanIsNotMerged) {
   const auto refused = merge_sweeps(std::vector{a, b});
   ASSERT_FALSE(refused);
   const std::string& why = refused.error().message;
-  for (const std::string part :
+  for (const std::string& part :
        {(a / "plan.yaml").string() + " and " + (b / "plan.yaml").string(),
         std::string("params: [degeneracy.eta=0:6:3] and [degeneracy.kappa=1:9:3]"),
         std::string("nothing was written")}) {
