@@ -49,11 +49,11 @@ void warn_of_unusable(EstimateResult& result) {
   }
 }
 
-/// Likewise of the legs.
+constexpr double kDisagree = 0.2;  ///< of the samples of the legs
+
+/// Likewise of the legs' odometry and joints.
 void warn_of_legs(EstimateResult& result) {
-  constexpr int kFewSeconds = 3;     // of a twist that may be a slip
-  constexpr double kMost = 0.5;      // of the samples; a trot has none without contact
-  constexpr double kDisagree = 0.2;  // of the samples
+  constexpr int kFewSeconds = 3;  // of a twist that may be a slip
   const double samples = result.recorded_s * result.setup.leg_rate_hz.value_or(0.0);
   const std::string& topic = result.setup.topics.leg_odometry;
   const auto warn = [&result](std::string reason, std::string text) {
@@ -91,6 +91,15 @@ void warn_of_legs(EstimateResult& result) {
                      "correct the driver",
                      topic, axes));
   }
+}
+
+/// Likewise of the feet.
+void warn_of_feet(EstimateResult& result) {
+  constexpr double kMost = 0.5;  // of the samples; a trot has none without contact
+  const double samples = result.recorded_s * result.setup.leg_rate_hz.value_or(0.0);
+  const auto warn = [&result](std::string reason, std::string text) {
+    result.setup.warnings.push_back({std::move(reason), std::move(text), WarnedSensor::kLegs});
+  };
   if (const int air = count_of(result, "legs_in_the_air"); air > 0) {
     warn("no foot in contact",
          fmt::format("no foot is in contact for more than half a second, {:.1f} s in all: there is "
@@ -175,6 +184,7 @@ void warn_of_counts(EstimateResult& result) {
   warn_of_imu(result);
   warn_of_unusable(result);
   warn_of_legs(result);
+  warn_of_feet(result);
   warn_of_clouds(result);
 }
 

@@ -75,21 +75,11 @@ std::map<std::string, Failed> failures_of(std::span<const RunRecord> records,
   return failures;
 }
 
-std::vector<std::string> names_in(std::span<const RunRecord> runs) {
-  std::vector<std::string> names;
-  for (const RunRecord& run : runs) {
-    for (const auto& [name, unused] : member(run.scores, "estimators").items()) {
-      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
-    }
-  }
-  return names;
-}
-
 }  // namespace
 
 std::vector<std::string> failure_lines(std::span<const RunRecord> runs) {
   std::vector<std::string> lines;
-  for (const std::string& name : names_in(runs)) {
+  for (const std::string& name : estimators_in(runs)) {
     std::size_t valid = 0;
     for (const auto& [reason, failed] : failures_of(runs, name, valid)) {
       if (runs.size() == 1 && reason == name_of(FailureReason::kErrorLimit)) continue;

@@ -109,6 +109,22 @@ bool failed_in(const RunRecord& record, const std::string& estimator) {
   });
 }
 
+std::vector<std::string> estimators_in(std::span<const RunRecord> runs) {
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
+  };
+  for (const RunRecord& run : runs) {
+    for (const auto& [name, unused] : run.scores.at("estimators").items()) add(name);
+  }
+  for (const RunRecord& run : runs) {
+    for (const Json& each : value_in(run.scores, "failures", Json::array())) {
+      add(value_in(each, "estimator", ""));
+    }
+  }
+  return names;
+}
+
 bool has_outcome(const RunRecord& record) {
   return !value_in(record.scores, "estimators", Json::object()).empty() ||
          !value_in(record.scores, "failures", Json::array()).empty();

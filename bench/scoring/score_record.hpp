@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,6 +50,9 @@ void visit_leaves(const Json& json, const std::string& prefix,
 
 /// Whether the estimator failed on that sequence, by an error or a crash: it has no scores.
 bool failed_in(const RunRecord& record, const std::string& estimator);
+
+/// Labels of the estimators of any run, then of those that failed on all.
+std::vector<std::string> estimators_in(std::span<const RunRecord> runs);
 
 /// Whether an estimator has scores or failed; otherwise the record says nothing of estimators.
 bool has_outcome(const RunRecord& record);

@@ -126,22 +126,6 @@ SuccessTest SuccessDifferences::test() const {
   return test;
 }
 
-ScorePairs paired_successes(const EstimatorRuns& reference, const EstimatorRuns& other,
-                            const std::string& key) {
-  ScorePairs pairs;
-  for (const RunRecord& a : reference.runs) {
-    for (const RunRecord& b : other.runs) {
-      if (a.seed != b.seed) continue;
-      const auto one = succeeds(a, reference.estimator, key);
-      const auto two = succeeds(b, other.estimator, key);
-      if (!one || !two) continue;
-      pairs.reference.push_back(*one ? 1.0 : 0.0);
-      pairs.value.push_back(*two ? 1.0 : 0.0);
-    }
-  }
-  return pairs;
-}
-
 McNemarTest success_test(const EstimatorRuns& first, const EstimatorRuns& second,
                          const std::string& key) {
   SuccessDifferences differences;
@@ -163,14 +147,27 @@ std::vector<double> ScorePairs::differences() const {
   return differences;
 }
 
+namespace {
+
+/// The score; a run on which the estimator failed is a lost success and has no other.
+std::optional<double> paired_value(const RunRecord& run, const std::string& estimator,
+                                   const std::string& key) {
+  const bool lost = failed_in(run, estimator) &&
+                    std::ranges::any_of(success_scores(),
+                                        [&](const Score& each) { return each.key == key; });
+  return lost ? std::optional(0.0) : find_score(run, estimator, key);
+}
+
+}  // namespace
+
 ScorePairs paired(const EstimatorRuns& reference, const EstimatorRuns& other,
                   const std::string& key) {
   ScorePairs pairs;
   for (const RunRecord& a : reference.runs) {
     for (const RunRecord& b : other.runs) {
       if (a.seed != b.seed || !is_valid_run(a) || !is_valid_run(b)) continue;
-      const auto first = find_score(a, reference.estimator, key);
-      const auto second = find_score(b, other.estimator, key);
+      const auto first = paired_value(a, reference.estimator, key);
+      const auto second = paired_value(b, other.estimator, key);
       if (!first || !second) continue;
       pairs.reference.push_back(*first);
       pairs.value.push_back(*second);

@@ -79,12 +79,9 @@ struct EstimatorRuns {
   std::string estimator;
 };
 
+/// Of a success with the runs on which an estimator failed.
 ScorePairs paired(const EstimatorRuns& reference, const EstimatorRuns& other,
                   const std::string& key);
-
-/// Likewise of successes, 1 or 0, with those that failed.
-ScorePairs paired_successes(const EstimatorRuns& reference, const EstimatorRuns& other,
-                            const std::string& key);
 
 /// Where two estimators differ in success.
 struct SuccessTest {

@@ -75,23 +75,6 @@ std::size_t failed_runs(std::span<const RunRecord> runs, const std::string& esti
       runs, [&](const RunRecord& run) { return failed_in(run, estimator); }));
 }
 
-/// The estimators of any run, then those that failed on all.
-std::vector<std::string> estimators_in(std::span<const RunRecord> runs) {
-  std::vector<std::string> names;
-  const auto add = [&](const std::string& name) {
-    if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
-  };
-  for (const RunRecord& run : runs) {
-    for (const auto& [name, unused] : run.scores.at("estimators").items()) add(name);
-  }
-  for (const RunRecord& run : runs) {
-    for (const Json& each : value_in(run.scores, "failures", Json::array())) {
-      add(value_in(each, "estimator", ""));
-    }
-  }
-  return names;
-}
-
 std::vector<Row> rows_of(std::span<const RunRecord> runs) {
   std::vector<Row> rows;
   for (const std::string& name : estimators_in(runs)) {

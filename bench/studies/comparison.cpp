@@ -128,9 +128,8 @@ void compare_runs(const std::string& scenario, const std::vector<RunRecord>& bef
     for (const auto& [name, unused] : run.scores["estimators"].items()) estimators.insert(name);
   }
   for (const std::string& estimator : estimators) {
-    const auto add = [&](const auto& score, const auto& pair, const auto& changed) {
-      const ScorePairs pairs =
-          pair(EstimatorRuns{before, estimator}, EstimatorRuns{after, estimator}, score.key);
+    const auto add = [&](const auto& score, const auto& changed) {
+      const ScorePairs pairs = paired({before, estimator}, {after, estimator}, score.key);
       if (pairs.value.empty()) return;
       ScoreChange change = changed(pairs, score);
       change.scenario = scenario;
@@ -138,8 +137,8 @@ void compare_runs(const std::string& scenario, const std::vector<RunRecord>& bef
       comparison.expected_false_alarms += change.false_alarm;
       comparison.changes.push_back(std::move(change));
     };
-    for (const Score& score : headline_scores()) add(score, paired, change_of);
-    for (const Score& score : success_scores()) add(score, paired_successes, success_change_of);
+    for (const Score& score : headline_scores()) add(score, change_of);
+    for (const Score& score : success_scores()) add(score, success_change_of);
   }
 }
 

@@ -38,15 +38,6 @@ Scenario scenario_of(const fs::path& run_folder, const RunRecord& record, Json& 
   return scenario;
 }
 
-/// Adds the estimators of a run to `names`, also those that failed.
-void add_estimators(const RunRecord& record, std::vector<std::string>& names) {
-  const auto add = [&](const std::string& name) {
-    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
-  };
-  for (const auto& [name, unused] : member(record.scores, "estimators").items()) add(name);
-  for (const Json& each : member(record.scores, "failures")) add(text_in(each, "estimator"));
-}
-
 /// What summary.json says of all seeds: failures, settings, whether all jobs have ended.
 void add_summary(const fs::path& folder, Json& suite, Json& notes) {
   const fs::path file = folder / "summary.json";
@@ -107,12 +98,12 @@ Result<PageData> seeds_page(const fs::path& folder, const PageOptions& options) 
     auto record = read_record(run_folder / "scores.json");
     if (!record) return tl::unexpected(record.error());
     if (only.runs.empty()) only.scenario = scenario_of(run_folder, *record, notes);
-    add_estimators(*record, only.scenario.run);
     rows.push_back(
         suite_run_json(only.scenario.name, record->seed, &*record, run_folder, page_folder));
     only.runs.push_back(std::move(*record));
   }
   if (only.runs.empty()) return failure(folder.string() + ": expected seed-N/scores.json");
+  only.scenario.run = estimators_in(only.runs);
   only.expectations = check_expectations(only.scenario, only.runs);
   PageData page;
   page.title = fmt::format("{}, seeds {}", only.scenario.name, seeds_text(only.runs));

@@ -156,7 +156,7 @@ export interface Comparison {
   after: string;
   summary?: string;
   changes: ScoreChange[];
-  /** Since aims.compare of 2026-11: runs on which an estimator fails on one side alone. */
+  /** Runs on which an estimator fails on one side alone; older results do not say. */
   fails_now?: string[];
   fails_no_more?: string[];
   only_before: string[];
