@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/sweep_results.hpp"
 
-#include <algorithm>
 #include <system_error>
 #include <vector>
 
@@ -14,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostShown = 40;  ///< points that are listed one by one
+constexpr std::size_t kMostShown = 40;  ///< points of an estimator that are listed
 
 }  // namespace
 
@@ -41,12 +40,14 @@ Json points_json(const MergedSweep& sweep, const Objective& objective) {
 void print_points(const MergedSweep& sweep, const Objective& objective) {
   const auto responses = sweep_responses(sweep, objective.score);
   if (!responses || responses->empty()) return;
-  TextTable table = point_table(*responses, objective);
+  const std::size_t points = point_table(*responses, objective).rows.size();
+  const TextTable table = point_table(*responses, objective, kMostShown);
   if (table.rows.empty()) return;
-  const std::size_t points = table.rows.size();
-  table.rows.resize(std::min(points, kMostShown));
   print_out("{}", to_text(table));
-  if (points > kMostShown) print_out("and {} more points\n", points - kMostShown);
+  if (points > table.rows.size()) {
+    print_out("and {} points of larger objective, on the page and in sweep.csv\n",
+              points - table.rows.size());
+  }
   std::size_t incomplete = 0;
   for (const SweepResponse& each : *responses) incomplete += each.incomplete;
   if (incomplete > 0) print_out("{} points are not complete\n", incomplete);

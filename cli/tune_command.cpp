@@ -9,6 +9,7 @@
 #include "bench/tuning/tune.hpp"
 #include "bench/tuning/tune_overlay.hpp"
 #include "bench/tuning/tune_summary.hpp"
+#include "bench/tuning/tune_verdict.hpp"
 #include "cli/commands.hpp"
 #include "cli/json_output.hpp"
 #include "cli/plan_options.hpp"

@@ -22,7 +22,7 @@ struct Words {
 };
 
 constexpr std::array kWords = {
-    Words{FailureReason::kErrorLimit, "error beyond 5 % of the distance"},
+    Words{FailureReason::kErrorLimit, "error beyond the limit of a success"},
     Words{FailureReason::kGap, "gap: no poses for too long"},
     Words{FailureReason::kStartsLate, "starts late: no poses near the start"},
     Words{FailureReason::kEndsEarly, "ends early: no poses near the end"},

@@ -225,8 +225,8 @@ std::string score_legend(std::span<const RunRecord> runs, const ScoreConfig& sco
   std::string text = fmt::format(
       "ATE yaw, heading: after least squares over all positions, by translation and heading.\n"
       "ATE start, M_end, max |z|: aligned to the truth at {}.\n"
-      "{}RPE: mean over pieces of 5 to 100 m (KITTI). within 5 %, 1 %: position error of the\n"
-      "distance travelled so far. tracked: of the truth's time, with poses at most {:g} s apart.\n",
+      "{}path error: mean over pieces of 5 to 100 m (KITTI). within 5 %, 1 %: position error of\n"
+      "the distance travelled so far. tracked: of the truth's time, poses at most {:g} s apart.\n",
       start,
       several ? "" : "ATE SE(3): least squares by translation and rotation (Umeyama, as evo).\n",
       scoring.max_gap);

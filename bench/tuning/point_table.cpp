@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <optional>
+#include <tuple>
 #include <vector>
 
 #include "bench/metrics/statistics.hpp"
@@ -71,6 +73,22 @@ std::vector<PointSummary> summaries_of(const SweepResponse& response, const Obje
   return summaries;
 }
 
+/// The defaults, the best point and those of least objective, at most `most`, in their order.
+std::vector<PointSummary> best_of(const std::vector<PointSummary>& points, std::size_t most) {
+  const auto rank = [](const PointSummary& point) {
+    return std::tuple(!point.is_default && !point.is_best, !point.objective,
+                      point.objective.value_or(0.0));
+  };
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return rank(points[k]); });
+  order.resize(std::min(most, order.size()));
+  std::ranges::sort(order);
+  std::vector<PointSummary> kept;
+  for (const std::size_t k : order) kept.push_back(points[k]);
+  return kept;
+}
+
 TableColumns<PointSummary> point_columns(const std::vector<ParameterRange>& ranges,
                                          const std::string& score) {
   using Point = PointSummary;
@@ -106,12 +124,14 @@ TableColumns<PointSummary> point_columns(const std::vector<ParameterRange>& rang
 
 }  // namespace
 
-TextTable point_table(std::span<const SweepResponse> responses, const Objective& objective) {
+TextTable point_table(std::span<const SweepResponse> responses, const Objective& objective,
+                      std::size_t most) {
   if (responses.empty()) return {};
   std::vector<PointSummary> points;
   for (const SweepResponse& response : responses) {
-    std::ranges::move(summaries_of(response, objective_for(objective, response.table)),
-                      std::back_inserter(points));
+    std::ranges::move(
+        best_of(summaries_of(response, objective_for(objective, response.table)), most),
+        std::back_inserter(points));
   }
   return rows_table(point_columns(responses.front().table.ranges, objective.score), points);
 }

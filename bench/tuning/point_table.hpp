@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 
@@ -12,8 +13,10 @@ namespace aims {
 
 /// A row per estimator and point: the varied values, the objective ("-" while sequences are
 /// missing), median and largest score over its runs that have it, diverged runs. The default
-/// setting comes first; the least objective of an estimator is marked "best".
-TextTable point_table(std::span<const SweepResponse> responses, const Objective& objective);
+/// setting comes first; the least objective of an estimator is marked "best". Of an estimator with
+/// more than `most` points the defaults and those of least objective are kept.
+TextTable point_table(std::span<const SweepResponse> responses, const Objective& objective,
+                      std::size_t most = std::numeric_limits<std::size_t>::max());
 
 /// The same of one estimator: `estimator`, `objective` (what it is), `incomplete` and `points`,
 /// each with `values`, `objective`, `score_median`, `score_worst`, `diverged`, `runs`, `default`,

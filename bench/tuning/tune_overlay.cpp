@@ -10,6 +10,7 @@
 
 #include "bench/run/code_version.hpp"
 #include "bench/tuning/tune_summary.hpp"
+#include "bench/tuning/tune_verdict.hpp"
 #include "core/files/atomic_file.hpp"
 #include "estimator/python/python_estimator.hpp"
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/tuning/tune_plan.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 #include "bench/scenario/score_keys.hpp"
@@ -203,6 +202,20 @@ std::string plan_text(const TunePlan& plan) {
 
 Result<void> write_plan(const TunePlan& plan, const fs::path& file) {
   return write_file_atomically(file, plan_text(plan));
+}
+
+std::string sequences_text(std::span<const ScenarioSeed> sequences) {
+  std::vector<std::string> scenarios;
+  std::vector<std::string> seeds;
+  const auto add = [](std::vector<std::string>& texts, const std::string& text) {
+    if (std::find(texts.begin(), texts.end(), text) == texts.end()) texts.push_back(text);
+  };
+  for (const ScenarioSeed& sequence : sequences) {
+    add(scenarios, sequence.scenario->name);
+    add(seeds, fmt::format("{}", sequence.seed));
+  }
+  return fmt::format("{} sequences: {}; seeds {}", sequences.size(), fmt::join(scenarios, ", "),
+                     fmt::join(seeds, " "));
 }
 
 Result<TuneTask> tune_task(const TunePlan& plan, const fs::path& folder) {

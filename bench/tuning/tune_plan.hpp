@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,9 @@ struct ScenarioSeed {
   std::shared_ptr<const Scenario> scenario;
   std::uint64_t seed = 0;
 };
+
+/// "3 sequences: corridor, severity_5; seeds 1 2 3".
+std::string sequences_text(std::span<const ScenarioSeed> sequences);
 
 /// A plan with all that it names found and checked.
 struct TuneTask {

@@ -18,7 +18,7 @@
 #include "bench/studies/suite_summary.hpp"
 #include "bench/tuning/range_key.hpp"
 #include "bench/tuning/sweep_summary.hpp"
-#include "bench/tuning/tune_summary.hpp"
+#include "bench/tuning/tune_verdict.hpp"
 #include "render/page/links.hpp"
 #include "render/page/series.hpp"
 #include "render/page/tuning_analyses.hpp"

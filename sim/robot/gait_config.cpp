@@ -2,8 +2,9 @@
 #include "sim/robot/gait.hpp"
 
 namespace aims {
+namespace {
 
-void describe(Fields& f, GaitConfig& c) {
+void describe_stride(Fields& f, GaitConfig& c) {
   f.number("period", c.period,
            {.unit = "s",
             .range = in_range(0.2, 1.0),
@@ -24,6 +25,9 @@ void describe(Fields& f, GaitConfig& c) {
            {.unit = "m",
             .range = in_range(0.0, 0.3),
             .meaning = "Lateral distance of a standing foot from its hip."});
+}
+
+void describe_feedback(Fields& f, GaitConfig& c) {
   f.number(
       "velocity_gain", c.velocity_gain,
       {.unit = "1/s", .range = up_to(1e5), .meaning = "Gain of the horizontal velocity feedback."});
@@ -45,6 +49,9 @@ void describe(Fields& f, GaitConfig& c) {
            {.unit = "1/s",
             .range = up_to(1e5),
             .meaning = "Gain of the integral feedback of velocity and yaw rate."});
+}
+
+void describe_commands(Fields& f, GaitConfig& c) {
   f.number("acceleration", c.acceleration,
            {.unit = "m/s^2",
             .range = positive_up_to(1e5),
@@ -53,6 +60,9 @@ void describe(Fields& f, GaitConfig& c) {
            {.unit = "rad/s^2",
             .range = positive_up_to(1e5),
             .meaning = "Largest rate of change of the yaw-rate command."});
+}
+
+void describe_swinging_leg(Fields& f, GaitConfig& c) {
   f.number("swing_stiffness", c.swing_stiffness,
            {.unit = "N m/rad",
             .range = positive_up_to(1e5),
@@ -65,6 +75,15 @@ void describe(Fields& f, GaitConfig& c) {
            {.unit = "N",
             .range = positive_up_to(1e4),
             .meaning = "Load of a swinging foot above which it has touched down."});
+}
+
+}  // namespace
+
+void describe(Fields& f, GaitConfig& c) {
+  describe_stride(f, c);
+  describe_feedback(f, c);
+  describe_commands(f, c);
+  describe_swinging_leg(f, c);
   f.group("swing", c.swing);
   f.group("hold", c.hold);
   f.group("trunk", c.trunk);

@@ -65,7 +65,7 @@ class EvoResults(ProgramTest):
         with open(self.path("out/scores.tex"), encoding="utf-8") as file:
             lines = file.read().splitlines()
         self.assertTrue(lines[0].startswith("\\begin{tabular}{lrr"))
-        self.assertIn("RPE \\%", lines[2])
+        self.assertIn("path error \\%", lines[2])
         self.assertTrue(lines[4].startswith("my\\_est & "))
         self.assertEqual(lines[4].count(" & "), lines[2].count(" & "))
         self.assertEqual(lines[-1], "\\end{tabular}")

@@ -21,7 +21,7 @@ TEST(FailureReasons, SeveralRunsNameEachReasonAndItsTimes) {
                                        run_of(3, "error_limit", 5.0)};
   EXPECT_EQ(failure_lines(runs),
             (std::vector<std::string>{
-                "mine on 1 of 3 seeds: error beyond 5 % of the distance, at 4.0 s",
+                "mine on 1 of 3 seeds: error beyond the limit of a success, at 4.0 s",
                 "mine on 2 of 3 seeds: gap: no poses for too long, at 10.0 to 12.5 s"}));
 }
 

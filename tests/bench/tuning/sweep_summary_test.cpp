@@ -118,6 +118,21 @@ TEST(SweepReport, ListsTheDefaultsOnceWhereTheyAreAPointOfTheGrid) {
   EXPECT_EQ(table.rows[0][0], "aims (default)");
 }
 
+TEST(SweepReport, AShortTableKeepsTheDefaultsAndTheLeastObjectives) {
+  const auto responses = sweep_responses(sweep_over_eta(true), "ate_yaw_m");
+  ASSERT_TRUE(responses);
+  const TextTable all = point_table(*responses, Objective());
+  const TextTable shown = point_table(*responses, Objective(), 3);
+  const auto best = std::ranges::find_if(all.rows, [](const auto& row) {
+    return std::ranges::any_of(row, [](const std::string& cell) { return says(cell, " best"); });
+  });
+  ASSERT_NE(best, all.rows.end());
+  ASSERT_GE(best - all.rows.begin(), 3) << "the first rows do not have it";
+  ASSERT_EQ(shown.rows.size(), 3U);
+  EXPECT_EQ(shown.rows[0], all.rows[0]) << "the defaults";
+  EXPECT_NE(std::ranges::find(shown.rows, *best), shown.rows.end());
+}
+
 TEST(SweepReport, KeepsTheLabelOfAnEstimator) {
   MergedSweep sweep = sweep_over_eta(true);
   sweep.plans = {

@@ -17,6 +17,7 @@
 #include "bench/tuning/range_key.hpp"
 #include "bench/tuning/tune_overlay.hpp"
 #include "bench/tuning/tune_summary.hpp"
+#include "bench/tuning/tune_verdict.hpp"
 #include "bench/tuning/values_text.hpp"
 #include "core/files/yaml_config.hpp"
 #include "core/random.hpp"
