@@ -69,7 +69,8 @@ void count_successes(const Suite& suite, const std::string& reference, const std
 
 SensitivityCell cell_of(const Suite& suite, const std::string& estimator,
                         const SettingVariant& variant) {
-  SensitivityCell cell{.factor = variant.factor};
+  SensitivityCell cell;
+  cell.factor = variant.factor;
   if (!variant.spec) return cell;
   const ScorePairs pairs = pooled_pairs(suite, estimator, variant.spec->label);
   cell.pairs = pairs.value.size();
