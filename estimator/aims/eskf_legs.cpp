@@ -8,8 +8,8 @@
 namespace aims {
 namespace {
 
-/// Noise of the legs until their scale is known, that of `tfs_plus`: large enough that the error of
-/// the scale does not keep scans from fitting each other (docs/decisions.md).
+/// Noise of the legs until their scale is known, 0.1 m/s and 5 %: large enough that the error of the
+/// scale does not keep scans from fitting each other (docs/decisions.md).
 const LegConfig kLegsOfUnknownScale;
 
 /// Without a scan for longer, nothing but the legs may measure the velocity.

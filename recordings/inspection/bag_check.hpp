@@ -26,7 +26,7 @@ struct RequirementCheck {
 };
 
 /// Checks the bag against the requirements of FAST-LIO2, LIO-SAM, LeGO-LOAM, LINS, LOAM, Leg-KILO
-/// and AIMS (docs/decisions.md names the sources).
+/// and AIMS.
 std::vector<RequirementCheck> check_bag(const BagInfo& info);
 
 /// A row per system: runs, runs poorly, or cannot run.
