@@ -39,6 +39,9 @@ void print_comparison(const Comparison& comparison) {
             summary_text(comparison), settings_text(comparison));
   for (const std::string& run : comparison.fails_now) print_out("FAILS NOW: {}\n", run);
   for (const std::string& run : comparison.fails_no_more) print_out("fails no more: {}\n", run);
+  for (const std::string& run : comparison.partial) {
+    print_out("success alone compared, the estimate lacks a part of the run: {}\n", run);
+  }
   for (const std::string& run : comparison.only_before) print_out("only before: {}\n", run);
   for (const std::string& run : comparison.only_after) print_out("only after: {}\n", run);
   for (const std::string& run : comparison.invalid) print_out("INVALID RUN left out: {}\n", run);

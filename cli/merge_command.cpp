@@ -13,6 +13,7 @@
 #include "cli/options.hpp"
 #include "cli/sweep_results.hpp"
 #include "cli/terminal.hpp"
+#include "render/page/tuning_source.hpp"
 
 namespace aims {
 namespace {
@@ -75,12 +76,17 @@ int merge_command(const MergeArguments& arguments) {
   print_out("{}\n", to_text(merge_table(*sweep)));
   print_points(*sweep, arguments.objective);
   print_open(*sweep);
+  if (sweep->repeated > 0) {
+    print_out("note: {} jobs failed in one folder and are done in another: they count as done\n",
+              sweep->repeated);
+  }
   if (sweep->others > 0) {
     print_out("note: {} results of another plan, code or scenario version are left out\n",
               sweep->others);
   }
   print_out("{} of {} jobs done: {}, sweep.csv, sweep.md\n", sweep->count("done"),
             sweep->jobs.size(), (out / "sweep.sqlite").string());
+  if (holds_tuning(out)) write_pages_of(out, arguments.shared.quiet);
   const std::size_t invalid = sweep->count("invalid");
   if (sweep->count("done") + invalid < sweep->jobs.size()) return kExpectationFailed;
   return invalid == 0 ? kOk : kInvalidRun;
@@ -99,7 +105,7 @@ void declare_merge(Command command, const fs::path& /*scenarios*/) {
                  "Value of a diverged run in the objective, of which the fraction of\n"
                  "diverged runs is added too (10)");
   command.footer(
-      "Writes sweep.sqlite, sweep.csv and sweep.md.\n"
+      "Writes sweep.sqlite, sweep.csv and sweep.md; in a folder of aims sweep the page too.\n"
       "Examples:\n"
       "  aims merge out/sweep\n"
       "  sqlite3 out/sweep/sweep.sqlite \"SELECT p.value, avg(s.value) FROM parameters p\n"

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/tuning/point_table.hpp"
+#include "bench/tuning/sweep_plan.hpp"
 #include "bench/tuning/sweep_summary.hpp"
 #include "cli/terminal.hpp"
 
@@ -23,6 +24,7 @@ Result<void> write_results(const MergedSweep& sweep, const Objective& objective,
   fs::create_directories(out, ignored);
   auto written = write_sqlite(sweep, out / "sweep.sqlite");
   if (written) written = write_sweep_csv(sweep, out / "sweep.csv");
+  if (written) written = write_objective(objective, out);
   if (!written) return written;
   const auto summary = write_sweep_summary(sweep, objective, out);
   if (!summary) print_out("note: no sweep.md: {}\n", summary.error().message);
@@ -51,6 +53,7 @@ void print_points(const MergedSweep& sweep, const Objective& objective) {
   std::size_t incomplete = 0;
   for (const SweepResponse& each : *responses) incomplete += each.incomplete;
   if (incomplete > 0) print_out("{} points are not complete\n", incomplete);
+  if (const std::string open = unstarted_text(sweep); !open.empty()) print_out("{}\n", open);
   print_out("objective: {}\n\n", text_of(objective_for(objective, responses->front().table)));
 }
 

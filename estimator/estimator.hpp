@@ -26,6 +26,8 @@ struct EstimatorResult {
   /// The trajectory after loop closing or smoothing, in the same frame; none: not re-optimized.
   std::optional<Trajectory> optimized;
   Diagnostics diagnostics;            ///< one row per scan (empty for `leg`)
+  /// Stamps of poses that were not finite or not rigid, and so are not in the trajectory.
+  std::vector<Time> invalid_poses;
   std::map<std::string, int> counts;  ///< e.g. late, duplicate, non-finite measurements
   std::vector<HealthRow> health;      ///< in order of time
   /// Why the estimator has ended before its stream, e.g. an exception of one in Python: the rest

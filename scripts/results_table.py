@@ -66,7 +66,7 @@ def rows(suite, estimators):
 
 def table(suite, estimators):
     lines = [
-        "| scenario | estimator | success (95 %) | M_list % | ATE m | relative error % |",
+        "| scenario | estimator | success (95 %) | M_list % | ATE m | path error % |",
         "|---|---|---:|---:|---:|---:|",
     ]
     lines += ["| " + " | ".join(row) + " |" for row in rows(suite, estimators)]

@@ -75,7 +75,8 @@ Result<void> score_against_truth(const EstimateConfig& config, EstimateResult& r
   for (const EstimatorOutcome& each : result.estimators) {
     auto estimated = trajectory_of(result, each.result.trajectory, each.name + ".tum");
     if (!estimated) return tl::unexpected(estimated.error());
-    input.estimates.push_back({each.name, each.name, "estimated here", std::move(*estimated)});
+    input.estimates.push_back({each.name, each.name, "estimated here",
+                               with_invalid_poses(std::move(*estimated), each.result)});
   }
   for (const EstimatorOutcome& each : result.estimators) {
     if (!each.result.optimized) continue;

@@ -33,6 +33,7 @@ struct Job {
   EstimatorSpec estimator;
   std::string id;  ///< bench/jobs/job_id.hpp: of scenario, seed, estimator, settings, code version
   std::vector<ScenarioSetting> scenario_settings = {};  ///< what a sweep varies of the scenario
+  std::string version = {};  ///< of a sweep: hash of scenario and estimator, whatever the seed
 };
 
 /// The job of those parts under its id, on the scenario as the seed draws it.
@@ -48,9 +49,9 @@ std::string text_of(const Job& job);
 /// How a job ended.
 enum class JobOutcome {
   kDone,
-  kFailed,    ///< the estimator ended with an error
-  kCrashed,   ///< its process was ended by a signal, or by itself
-  kTimedOut,  ///< it was stopped after the time that a job is given
+  kFailed,        ///< the estimator ended with an error
+  kCrashed,       ///< its process was ended by a signal, or by itself
+  kTimedOut,      ///< it was stopped after the time that a job is given
   kNotSimulated,  ///< its sequence cannot be simulated, which is no failure of the estimator
 };
 

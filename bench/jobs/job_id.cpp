@@ -44,6 +44,10 @@ Result<std::string> JobIds::estimator_key(const EstimatorSpec& estimator) const 
   return key_of(estimator.name, dump_config(fields_of(**config)));
 }
 
+std::string JobIds::version(const std::string& estimator_key) const {
+  return text_hash(fmt::format("{}\n{}", scenario_key_, estimator_key));
+}
+
 std::string JobIds::id(std::uint64_t seed, const std::string& estimator_key) const {
   return text_hash(
       fmt::format("{}\n{}\n{}\n{}", code_version(), seed, scenario_key_, estimator_key));

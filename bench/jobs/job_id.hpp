@@ -31,6 +31,9 @@ class JobIds {
   /// no effect, or a value that it does not allow.
   Result<std::string> estimator_key(const EstimatorSpec& estimator) const;
 
+  /// Hash of the scenario and the estimator of that key, on any seed.
+  std::string version(const std::string& estimator_key) const;
+
   /// `job_id` of the scenario, the seed and the estimator of that key.
   std::string id(std::uint64_t seed, const std::string& estimator_key) const;
 

@@ -31,10 +31,10 @@ std::string plan_file_text(const std::string& plan) {
 }
 
 std::string job_list(std::span<const Job> jobs) {
-  CsvTable table({"id", "scenario", "seed", "label", "estimator"});
+  CsvTable table({"id", "scenario", "seed", "label", "estimator", "version"});
   for (const Job& job : jobs) {
     table.add(job.id).add(job.scenario->name).add(static_cast<std::int64_t>(job.seed));
-    table.add(job.estimator.label).add(point_text(job)).end_row();
+    table.add(job.estimator.label).add(point_text(job)).add(job.version).end_row();
   }
   return table.text();
 }
@@ -172,9 +172,11 @@ Result<std::vector<ListedJob>> JobStore::listed() const {
     return failure(fmt::format("{}: expected the columns id, scenario, seed, label, estimator",
                                (folder_ / kListFile).string()));
   }
+  const auto versions = table->texts("version");  // older lists have none
   std::vector<ListedJob> jobs;
   for (std::size_t i = 0; i < table->rows(); ++i) {
-    jobs.push_back({ids[i], scenarios[i], seeds[i], labels[i], estimators[i]});
+    jobs.push_back({ids[i], scenarios[i], seeds[i], labels[i], estimators[i],
+                    i < versions.size() ? versions[i] : ""});
   }
   return jobs;
 }

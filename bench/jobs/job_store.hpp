@@ -25,8 +25,9 @@ struct ListedJob {
   std::string id;
   std::string scenario;
   std::string seed;
-  std::string label;      ///< of the estimator
-  std::string estimator;  ///< with its settings and those of the scenario
+  std::string label;         ///< of the estimator
+  std::string estimator;     ///< with its settings and those of the scenario
+  std::string version = {};  ///< of scenario and estimator (job.hpp); empty: not known
 };
 
 /// The one layout of stored results:

@@ -31,7 +31,7 @@ void add_scores(const Sequence& sequence, const Scenario& scenario, EstimatorOut
     return score(trajectory, sequence.truth_trajectory, sequence.waypoint_times, scenario.scoring);
   };
   const EstimatorResult& result = outcome.result;
-  outcome.scores = scores_of(result.trajectory);
+  outcome.scores = scores_of(with_invalid_poses(result.trajectory, result));
   if (result.optimized) outcome.optimized = scores_of(*result.optimized);
   if (invalid_reason(sequence.walk, to_seconds(sequence.end()))) {
     withdraw_success(outcome.scores, FailureReason::kInvalidRun);

@@ -1,7 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/scoring/outcome.hpp"
 
+#include <algorithm>
+#include <limits>
+
 namespace aims {
+
+Trajectory with_invalid_poses(Trajectory trajectory, const EstimatorResult& result) {
+  StampedPose invalid;
+  invalid.pose.translation.setConstant(std::numeric_limits<double>::quiet_NaN());
+  for (const Time stamp : result.invalid_poses) {
+    invalid.stamp = stamp;
+    trajectory.push_back(invalid);
+  }
+  std::ranges::stable_sort(trajectory, {}, &StampedPose::stamp);
+  return trajectory;
+}
 
 EstimatorOutcome outcome_of(const TimedEstimator& timed) {
   const EstimatorResult& result = timed.estimator().result();
@@ -18,6 +32,7 @@ EstimatorOutcome outcome_without_rows(const TimedEstimator& timed) {
   outcome.name = timed.name();
   outcome.result.optimized = result.optimized;
   outcome.result.diagnostics.series = result.diagnostics.series;
+  outcome.result.invalid_poses = result.invalid_poses;
   outcome.result.counts = result.counts;
   outcome.result.failure = result.failure;
   outcome.result.external_cpu_s = result.external_cpu_s;

@@ -28,6 +28,10 @@ struct EstimatorOutcome {
   EstimatorTotals totals;  ///< of an estimate of a recording
 };
 
+/// The trajectory with the poses that are left out of it since they were not finite or not rigid,
+/// as poses that are not finite: a score counts them, and such an estimate is no success.
+Trajectory with_invalid_poses(Trajectory trajectory, const EstimatorResult& result);
+
 /// What an estimator that has finished came to, but for scores and totals.
 EstimatorOutcome outcome_of(const TimedEstimator& timed);
 

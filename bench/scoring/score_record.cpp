@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "bench/metrics/statistics.hpp"
+#include "bench/metrics/success.hpp"
 #include "bench/scoring/health_summary.hpp"
+#include "bench/scoring/validity.hpp"
 
 namespace aims {
 namespace {
@@ -104,9 +106,20 @@ std::optional<double> number_at(const Json& json, std::string_view key) {
 
 bool failed_in(const RunRecord& record, const std::string& estimator) {
   const Json failures = value_in(record.scores, "failures", Json::array());
-  return std::ranges::any_of(failures, [&](const Json& each) {
-    return value_in(each, "estimator", "") == estimator;
-  });
+  return std::ranges::any_of(
+      failures, [&](const Json& each) { return value_in(each, "estimator", "") == estimator; });
+}
+
+bool is_partial(const RunRecord& record, const std::string& estimator) {
+  if (!is_valid_run(record)) return false;
+  return failed_in(record, estimator) || is_partial(estimator_in(record, estimator));
+}
+
+bool is_partial(const Json& scores) {
+  if (scores.is_null() || value_in(scores, "success", false)) return false;
+  const std::string reason = value_in(scores, "diverged_reason", "");
+  return !reason.empty() && reason != name_of(FailureReason::kErrorLimit) &&
+         reason != name_of(FailureReason::kInvalidRun);
 }
 
 std::vector<std::string> estimators_in(std::span<const RunRecord> runs) {
@@ -115,7 +128,8 @@ std::vector<std::string> estimators_in(std::span<const RunRecord> runs) {
     if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
   };
   for (const RunRecord& run : runs) {
-    for (const auto& [name, unused] : run.scores.at("estimators").items()) add(name);
+    const Json scores = value_in(run.scores, "estimators", Json::object());
+    for (const auto& [name, unused] : scores.items()) add(name);
   }
   for (const RunRecord& run : runs) {
     for (const Json& each : value_in(run.scores, "failures", Json::array())) {

@@ -51,6 +51,14 @@ void visit_leaves(const Json& json, const std::string& prefix,
 /// Whether the estimator failed on that sequence, by an error or a crash: it has no scores.
 bool failed_in(const RunRecord& record, const std::string& estimator);
 
+/// Whether an estimate with these scores leaves a part of the run out: it is no success for another
+/// reason than its error (a gap, an early end, no poses). Its scores are of other stretches than
+/// those of others and compare with none.
+bool is_partial(const Json& scores);
+
+/// The same of an estimator in a record of a valid run; also where it failed.
+bool is_partial(const RunRecord& record, const std::string& estimator);
+
 /// Labels of the estimators of any run, then of those that failed on all.
 std::vector<std::string> estimators_in(std::span<const RunRecord> runs);
 

@@ -149,13 +149,13 @@ std::vector<double> ScorePairs::differences() const {
 
 namespace {
 
-/// The score; a run on which the estimator failed is a lost success and has no other.
+/// The score; a run that lacks a part of the estimate is a lost success and has no other.
 std::optional<double> paired_value(const RunRecord& run, const std::string& estimator,
                                    const std::string& key) {
-  const bool lost = failed_in(run, estimator) &&
-                    std::ranges::any_of(success_scores(),
-                                        [&](const Score& each) { return each.key == key; });
-  return lost ? std::optional(0.0) : find_score(run, estimator, key);
+  if (!is_partial(run, estimator)) return find_score(run, estimator, key);
+  const bool is_success =
+      std::ranges::any_of(success_scores(), [&](const Score& each) { return each.key == key; });
+  return is_success ? std::optional(0.0) : std::nullopt;
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ struct EstimatorRuns {
   std::string estimator;
 };
 
-/// Of a success with the runs on which an estimator failed.
+/// Runs that lack a part of the estimate (`is_partial`) are lost successes and have no other scores.
 ScorePairs paired(const EstimatorRuns& reference, const EstimatorRuns& other,
                   const std::string& key);
 

@@ -49,7 +49,7 @@ Column segment_column(const std::string& segment) {
 std::vector<Column> columns_of(const RunRecord& run, bool several) {
   std::vector<Column> columns = {column_of("ate_yaw_m"), column_of("ate_m"),
                                  column_of("heading_error_mrad")};
-  const Json& segments = run.scores.at("segments");
+  const Json segments = value_in(run.scores, "segments", Json::array());
   const bool shown = !several && segments.size() <= kMostSegments;
   for (const Json& segment : segments) {
     if (shown) columns.push_back(segment_column(segment["name"].get<std::string>()));
@@ -69,10 +69,10 @@ std::vector<Column> columns_of(const RunRecord& run, bool several) {
   return columns;
 }
 
-/// Runs on which the estimator failed.
+/// Valid runs on which the estimator failed.
 std::size_t failed_runs(std::span<const RunRecord> runs, const std::string& estimator) {
   return static_cast<std::size_t>(std::ranges::count_if(
-      runs, [&](const RunRecord& run) { return failed_in(run, estimator); }));
+      runs, [&](const RunRecord& run) { return is_valid_run(run) && failed_in(run, estimator); }));
 }
 
 std::vector<Row> rows_of(std::span<const RunRecord> runs) {
@@ -91,9 +91,10 @@ ScoreStatistics statistics_in(std::span<const RunRecord> runs, const Row& row,
   return statistics_of(runs, row.estimator, row.prefix + key);
 }
 
-/// Whether its scores are of the same runs as those of others: none of one that failed on some.
+/// Whether its scores are of all that those of others are: every run, from start to end.
 bool is_comparable(std::span<const RunRecord> runs, const Row& row) {
-  return failed_runs(runs, row.estimator) == 0;
+  return std::ranges::none_of(runs,
+                              [&](const RunRecord& run) { return is_partial(run, row.estimator); });
 }
 
 bool has_success(std::span<const RunRecord> runs, const Row& row) {
@@ -139,6 +140,7 @@ std::string cell(std::span<const RunRecord> runs, const Row& row, const Column& 
   if (success && best && *summary.median == *best && is_comparable(runs, row)) text += "*";
   const bool timing = is_timing(column.key);
   if (runs.size() > 1 && !success && !timing) text += " x";
+  if (!is_comparable(runs, row) && !timing) text += " part";
   if (runs.size() == 1 && column.key == kSe3Key) text += spread_mark(runs.front(), row);
   return text;
 }
@@ -156,10 +158,11 @@ std::string outcome_of(const RunRecord& run, const Row& row) {
 }
 
 std::string success_cell(std::span<const RunRecord> runs, const Row& row, const Score& score) {
-  if (const std::size_t failed = failed_runs(runs, row.estimator); failed == runs.size()) {
-    return runs.size() == 1 ? "failed" : fmt::format("failed ({0} of {0} seeds)", failed);
+  const auto valid = static_cast<std::size_t>(std::ranges::count_if(runs, is_valid_run));
+  if (valid == 0) return "invalid run";
+  if (failed_runs(runs, row.estimator) == valid) {
+    return runs.size() == 1 ? "failed" : fmt::format("failed ({0} of {0} seeds)", valid);
   }
-  if (std::ranges::none_of(runs, is_valid_run)) return "invalid run";
   if (runs.size() == 1 && std::string(score.key) == kSuccessKey) {
     return outcome_of(runs.front(), row);
   }
@@ -188,7 +191,7 @@ TextTable score_table(std::span<const RunRecord> runs) {
   if (runs.empty()) return table;
   // A route that was not finished may lack segments.
   const auto valid = std::ranges::find_if(runs, [](const RunRecord& run) {
-    return is_valid_run(run) && !run.scores.at("estimators").empty();
+    return is_valid_run(run) && !value_in(run.scores, "estimators", Json::object()).empty();
   });
   const std::vector<Row> rows = rows_of(runs);
   std::vector<Column> columns =
@@ -243,8 +246,13 @@ std::string score_legend(std::span<const RunRecord> runs, const ScoreConfig& sco
         "Success:\n"
         "runs, with the 95 % interval of the rate.\n";
   }
-  if (!runs.empty() && runs.front().scores.at("estimators").size() > 1) {
-    text += "A star: best of those that succeeded and failed on none of the runs.\n";
+  if (estimators_in(runs).size() > 1) {
+    text += "A star: best of those that succeeded, of which no run lacks a part of the estimate.\n";
+  }
+  if (std::ranges::any_of(estimators_in(runs), [&](const std::string& name) {
+        return !is_comparable(runs, {name, ""});
+      })) {
+    text += "part: over what there is; of a run the estimate lacks a part.\n";
   }
   return text;
 }

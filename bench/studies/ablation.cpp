@@ -46,8 +46,9 @@ std::vector<std::string> without_each_part(const EstimatorSpec& spec, const Fiel
 AblationRow row_of(const SuiteCase& each, const std::string& complete, const std::string& label) {
   AblationRow row;
   row.label = label;
-  row.runs = finished(each.runs, label);
-  row.successes = successes(each.runs, label);
+  const SuccessRate rate = success_rate(each.runs, label);
+  row.runs = rate.runs;
+  row.successes = rate.count;
   row.strict = success_rate(each.runs, label, kStrictSuccessKey);
   row.success_test = success_test({each.runs, complete}, {each.runs, label});
   for (std::size_t i = 0; i < kAblationCount; ++i) {

@@ -76,18 +76,14 @@ ScoreChange success_change_of(const ScorePairs& pairs, const Score& score) {
 /// Seeds by "scenario, estimator".
 using SeedsByName = std::map<std::string, std::set<std::uint64_t>>;
 
-/// Those with an outcome; `failed`: those on which the estimator failed alone.
-SeedsByName seeds_of(const StoredResults& results, bool failed = false) {
+/// Those of the runs of which it holds.
+template <class Holds>
+SeedsByName seeds_where(const StoredResults& results, Holds&& holds) {
   SeedsByName seeds;
   for (const auto& [scenario, runs] : results) {
     for (const RunRecord& run : runs) {
-      if (!failed) {
-        for (const auto& [estimator, unused] : run.scores["estimators"].items()) {
-          seeds[scenario + ", " + estimator].insert(run.seed);
-        }
-      }
-      for (const Json& each : value_in(run.scores, "failures", Json::array())) {
-        seeds[scenario + ", " + value_in(each, "estimator", "")].insert(run.seed);
+      for (const std::string& estimator : estimators_in({&run, 1})) {
+        if (holds(run, estimator)) seeds[scenario + ", " + estimator].insert(run.seed);
       }
     }
   }
@@ -123,10 +119,8 @@ SeedsByName common(SeedsByName ours, const SeedsByName& others) {
 /// Adds the changes of one scenario.
 void compare_runs(const std::string& scenario, const std::vector<RunRecord>& before,
                   const std::vector<RunRecord>& after, Comparison& comparison) {
-  std::set<std::string> estimators;
-  for (const RunRecord& run : before) {
-    for (const auto& [name, unused] : run.scores["estimators"].items()) estimators.insert(name);
-  }
+  std::vector<std::string> estimators = estimators_in(before);
+  std::ranges::sort(estimators);
   for (const std::string& estimator : estimators) {
     const auto add = [&](const auto& score, const auto& changed) {
       const ScorePairs pairs = paired({before, estimator}, {after, estimator}, score.key);
@@ -151,6 +145,17 @@ void note_invalid(const char* side, const StoredResults& results, Comparison& co
   }
 }
 
+/// Notes the estimates of one side that leave a part of the run out.
+void note_partial(const char* side, const StoredResults& results, Comparison& comparison) {
+  const SeedsByName partial =
+      seeds_where(results, [](const RunRecord& run, const std::string& estimator) {
+        return is_partial(run, estimator) && !failed_in(run, estimator);
+      });
+  for (const auto& [name, seeds] : partial) {
+    comparison.partial.push_back(fmt::format("{}: {}, seed {}", side, name, fmt::join(seeds, ",")));
+  }
+}
+
 }  // namespace
 
 Comparison compare(const StoredResults& before, const StoredResults& after) {
@@ -161,14 +166,20 @@ Comparison compare(const StoredResults& before, const StoredResults& after) {
   }
   note_invalid("before", before, comparison);
   note_invalid("after", after, comparison);
-  const SeedsByName seeds_before = seeds_of(before);
-  const SeedsByName seeds_after = seeds_of(after);
+  const auto ran = [](const RunRecord&, const std::string&) { return true; };
+  const SeedsByName seeds_before = seeds_where(before, ran);
+  const SeedsByName seeds_after = seeds_where(after, ran);
   comparison.only_before = without(seeds_before, seeds_after);
   comparison.only_after = without(seeds_after, seeds_before);
-  const SeedsByName failed_before = seeds_of(before, true);
-  const SeedsByName failed_after = seeds_of(after, true);
+  const auto failed = [](const RunRecord& run, const std::string& estimator) {
+    return is_valid_run(run) && failed_in(run, estimator);
+  };
+  const SeedsByName failed_before = seeds_where(before, failed);
+  const SeedsByName failed_after = seeds_where(after, failed);
   comparison.fails_now = without(common(failed_after, seeds_before), failed_before);
   comparison.fails_no_more = without(common(failed_before, seeds_after), failed_after);
+  note_partial("before", before, comparison);
+  note_partial("after", after, comparison);
   return comparison;
 }
 

@@ -53,6 +53,9 @@ struct Comparison {
   /// successes, and have no other scores.
   std::vector<std::string> fails_now;
   std::vector<std::string> fails_no_more;
+  /// "after: scenario, estimator, seed 1,2" where an estimate leaves a part of the run out, by a gap,
+  /// an early end or no poses: of these runs the success alone is compared.
+  std::vector<std::string> partial;
   std::vector<std::string> invalid;    ///< runs left out: "before: corridor seed 3: the robot fell"
   double expected_false_alarms = 0.0;  ///< sum over the changes
 };

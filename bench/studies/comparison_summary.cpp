@@ -82,6 +82,8 @@ std::string comparison_markdown(const Comparison& comparison, const std::string&
   text += fmt::format("\n{}\n{}", to_markdown(change_table(comparison)), rule_text(comparison));
   text += list_markdown("Fails now", comparison.fails_now);
   text += list_markdown("Fails no more", comparison.fails_no_more);
+  text += list_markdown("Success alone compared: an estimate lacks a part of the run",
+                        comparison.partial);
   text += list_markdown("Only before", comparison.only_before);
   text += list_markdown("Only after", comparison.only_after);
   return text + list_markdown("Invalid and left out", comparison.invalid);
@@ -122,6 +124,7 @@ Json comparison_json(const Comparison& comparison, const std::string& before,
           {"changes", rows_json(change_columns(), comparison.changes)},
           {"fails_now", comparison.fails_now},
           {"fails_no_more", comparison.fails_no_more},
+          {"partial", comparison.partial},
           {"only_before", comparison.only_before},
           {"only_after", comparison.only_after},
           {"invalid", comparison.invalid}};

@@ -35,8 +35,9 @@ std::string text_of(const Json& value) {
 GroupScores scores_of(std::span<const RunRecord> runs, const std::string& estimator) {
   GroupScores scores;
   scores.estimator = estimator;
-  scores.runs = finished(runs, estimator);
-  scores.successes = successes(runs, estimator);
+  const SuccessRate rate = success_rate(runs, estimator);
+  scores.runs = rate.runs;
+  scores.successes = rate.count;
   scores.strict = success_rate(runs, estimator, kStrictSuccessKey);
   for (const Score& score : headline_scores()) {
     scores.medians.push_back(statistics_of(runs, estimator, score.key).median);
@@ -50,10 +51,8 @@ DrawnGroup group_of(const std::string& scenario, std::string label,
   group.scenario = scenario;
   group.label = std::move(label);
   group.invalid = invalid_runs(runs).size();
-  std::set<std::string> estimators;
-  for (const RunRecord& run : runs) {
-    for (const auto& [name, unused] : run.scores["estimators"].items()) estimators.insert(name);
-  }
+  std::vector<std::string> estimators = estimators_in(runs);
+  std::ranges::sort(estimators);
   for (const std::string& name : estimators) group.estimators.push_back(scores_of(runs, name));
   return group;
 }

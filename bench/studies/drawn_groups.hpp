@@ -21,7 +21,7 @@ std::vector<double> upper_ends(std::vector<double> values, std::size_t bins);
 /// One estimator over the runs of a group.
 struct GroupScores {
   std::string estimator;
-  std::size_t runs = 0;  ///< valid ones in which it finished
+  std::size_t runs = 0;  ///< valid ones, with those on which it failed
   std::size_t successes = 0;
   SuccessRate strict;                          ///< within 1 %
   std::vector<std::optional<double>> medians;  ///< in the order of `headline_scores()`

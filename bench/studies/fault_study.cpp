@@ -82,6 +82,9 @@ FaultCase case_of(const StreamFault& fault, const EstimatorOutcome& outcome, Tim
   result.success = outcome.scores.success;
   result.ate_m = outcome.scores.ate_m;
   result.alarm_fraction = alarm_fraction(rows);
+  result.judged = std::ranges::any_of(
+      rows, [](const HealthRow& row) { return row.state != HealthState::kStarting; });
+  if (outcome.result.failure) result.failure = outcome.result.failure->message;
   for (const HealthRow& row : rows) {
     result.worst = std::max(result.worst, row.state);
     if (result.first_alarm_s || row.stamp < begin || !is_alarm(row)) continue;
@@ -90,7 +93,8 @@ FaultCase case_of(const StreamFault& fault, const EstimatorOutcome& outcome, Tim
   }
   if (result.success) return result;
   const Time failed = outcome.scores.diverged_at.value_or(begin);
-  result.silent = !alarmed_between(rows, begin, failed + kNoticeTime);
+  result.silent = result.judged && result.failure.empty() &&
+                  !alarmed_between(rows, begin, failed + kNoticeTime);
   return result;
 }
 
@@ -114,8 +118,9 @@ Result<std::vector<StreamFault>> selected(const std::vector<std::string>& names)
 
 std::string cell(const FaultCase& each) {
   std::string text = each.success ? "" : each.silent ? "SILENT " : "failed ";
+  if (!each.failure.empty()) return text + "with an error";
   if (each.ate_m) text += fmt::format("{:.2f} ", *each.ate_m);
-  return text + std::string(name_of(each.worst));
+  return text + std::string(each.judged ? name_of(each.worst) : "not judged");
 }
 
 }  // namespace

@@ -33,6 +33,8 @@ struct FaultCase {
   std::optional<double> first_alarm_s;  ///< first row that is not healthy, since the fault began
   std::string reasons;                  ///< of that row
   double alarm_fraction = 0.0;          ///< of the time after the start in which it is not healthy
+  std::string failure;  ///< why the estimator ended, e.g. an exception; empty: it did not
+  bool judged = false;  ///< it reports its health
   /// It fails and is called healthy until `kNoticeTime` after its error passed the limit.
   bool silent = false;
 };

@@ -17,8 +17,9 @@ constexpr const char* kSensitivityIntroduction =
     "One setting at a time, its number times a factor, on the same {1} sequences; all else as\n"
     "before. Ratios are of the median ATE yaw ({2}), above 1 where the change makes it worse; in\n"
     "brackets the sequences on which `{0}` alone succeeds (-) and the variant alone (+). A dash\n"
-    "stands where the setting does not allow the value. p: sign test of the "
-    "successes over seeds.\n";
+    "stands where there is nothing to compare: the setting does not allow the value, or the "
+    "variant\n"
+    "failed or lacks a part of every run. p: sign test of the successes over seeds.\n";
 
 const TableColumns<SensitivityCell>& cell_columns() {
   using Cell = SensitivityCell;
@@ -30,8 +31,7 @@ const TableColumns<SensitivityCell>& cell_columns() {
 }
 
 std::string sensitivity_cell_text(const SensitivityCell& cell) {
-  if (!cell.ratio) return "-";
-  std::string text = fmt::format("{:.3f}", *cell.ratio);
+  std::string text = number_text(cell.ratio, "{:.3f}");
   if (cell.lost > 0) text += fmt::format(" (-{})", cell.lost);
   if (cell.won > 0) text += fmt::format(" (+{})", cell.won);
   if (cell.lost + cell.won > 0) text += fmt::format(" p {:.2g}", cell.success_p);

@@ -25,7 +25,10 @@ std::string invalid_cell(const SuiteCase& each, const std::string& estimator) {
 }
 
 std::string headline_cell(const SuiteCase& each, const std::string& estimator, const Score& score) {
-  if (!ran(each, estimator)) return invalid_cell(each, estimator);
+  if (!ran(each, estimator)) {
+    const bool failed = success_rate(each.runs, estimator).runs > 0;
+    return failed ? "failed" : invalid_cell(each, estimator);
+  }
   const ScoreStatistics summary = statistics_of(each.runs, estimator, score.key);
   if (!summary.median) return "-";
   std::string text = fmt::format("{:.{}f}", *summary.median, score.digits);
@@ -113,8 +116,8 @@ TextTable headline_table(const Suite& suite, const Score& score) {
 
 TextTable success_table(const Suite& suite, const Score& score) {
   return matrix(suite, [&](const SuiteCase& each, const std::string& estimator) {
-    if (!ran(each, estimator)) return invalid_cell(each, estimator);
-    return success_rate(each.runs, estimator, score.key).text();
+    const SuccessRate rate = success_rate(each.runs, estimator, score.key);
+    return rate.runs > 0 ? rate.text() : invalid_cell(each, estimator);
   });
 }
 

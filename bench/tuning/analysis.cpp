@@ -20,10 +20,13 @@ constexpr double kTie = 1e-9;  ///< relative
 /// In widths of the ranges, over all parameters.
 double distance_from_defaults(const ResponseTable& table, std::size_t point) {
   const std::vector<double>& values = values_at(table, point);
+  // Zero lies at minus infinity on a logarithmic range.
+  const auto fraction = [&](std::size_t i, double value) {
+    return std::clamp(fraction_of(table.ranges[i], value), -1.0, 2.0);
+  };
   double distance = 0.0;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const ParameterRange& range = table.ranges[i];
-    distance += std::abs(fraction_of(range, values[i]) - fraction_of(range, table.defaults[i]));
+    distance += std::abs(fraction(i, values[i]) - fraction(i, table.defaults[i]));
   }
   return distance;
 }
@@ -99,7 +102,8 @@ Result<BestPoint> best_point(const ResponseTable& table, const Objective& object
   if (objective.divergence_penalty > 0.0 && all_diverged(table)) {
     return failure(
         "every run diverged or failed and counts the divergence penalty or more, so that no point "
-        "is better than another");
+        "is better than another; a divergence penalty of 0 (aims merge FOLDER "
+        "--divergence-penalty 0) counts their scores");
   }
   const auto all = cases_of(table, "");
   const auto point = least_point(table, objective, all);

@@ -29,7 +29,7 @@ using Rows = std::vector<std::vector<double>>;
 Rows by_seed(const ResponseTable& table, const Objective& objective, const SeedGroups& seeds) {
   Rows rows;
   bool positive = true;
-  for (std::size_t k = 0; k < table.points.size(); ++k) {
+  for (const std::size_t k : distinct_points(table)) {
     if (!is_inside(table, table.points[k])) continue;
     std::vector<double> row;
     for (const auto& cases : seeds) {
@@ -113,9 +113,8 @@ std::optional<double> least_p(const Rows& rows, std::size_t seeds) {
 /// Cases on which every run diverged, so that all count the penalty.
 std::size_t saturated_cases(const ResponseTable& table, const std::vector<std::size_t>& cases) {
   return static_cast<std::size_t>(std::ranges::count_if(cases, [&](std::size_t i) {
-    return std::ranges::all_of(table.runs, [i](const auto& runs) {
-      return i < runs.size() && runs[i].diverged;
-    });
+    return std::ranges::all_of(
+        table.runs, [i](const auto& runs) { return i < runs.size() && runs[i].diverged; });
   }));
 }
 
@@ -132,8 +131,7 @@ bool are_same(const std::vector<RunScore>& a, const std::vector<RunScore>& b) {
 
 /// The points, and the defaults where they were run.
 std::vector<std::size_t> all_points(const ResponseTable& table) {
-  std::vector<std::size_t> points;
-  for (std::size_t k = 0; k < table.points.size(); ++k) points.push_back(k);
+  std::vector<std::size_t> points = distinct_points(table);
   if (!table.default_runs.empty()) points.push_back(kDefaults);
   return points;
 }
@@ -215,7 +213,7 @@ bool is_small(const ResponseTable& table, const Objective& objective, const Effe
     scale = mean(scores).value_or(0.0);
   }
   return scale > 0.0 && (effect.most - effect.least) * scale <=
-         smallest_change(objective.score, effect.least * scale);
+                            smallest_change(objective.score, effect.least * scale);
 }
 
 /// What the objective cannot show.
@@ -246,7 +244,7 @@ Effect effect_of(const ResponseTable& table, const Objective& objective,
                  const std::string& family) {
   const auto cases = cases_of(table, family);
   Effect effect;
-  for (std::size_t k = 0; k < table.points.size(); ++k) {
+  for (const std::size_t k : distinct_points(table)) {
     const auto value = objective_at(table, objective, k, cases);
     if (!value || !is_inside(table, table.points[k])) continue;
     effect.least = effect.points == 0 ? *value : std::min(effect.least, *value);
@@ -277,13 +275,13 @@ std::string text_of(const Effect& effect) {
   std::string text = fmt::format("The objective lies between {:.4g} and {:.4g} at the {} points",
                                  effect.least, effect.most, effect.points);
   if (effect.least > 0.0) {
-    text += fmt::format(" ({} of the least)",
-                        percent_text(100.0 * (effect.most / effect.least - 1.0)));
+    text +=
+        fmt::format(" ({} of the least)", percent_text(100.0 * (effect.most / effect.least - 1.0)));
   }
   if (!effect.is_resolved()) {
     text += !effect.testable ? ": not resolved: too few seeds and points for the test below"
             : effect.p       ? ": not resolved, since seeds scatter as much"
-                     : ": not resolved, since with one seed less than 5 % may be scatter";
+                             : ": not resolved, since with one seed less than 5 % may be scatter";
   } else {
     text += effect.p ? ", beyond the scatter of seeds" : "; with one seed its scatter is unknown";
     if (effect.of_one_point) text += ", by a single point alone: without it, it is not resolved";

@@ -28,6 +28,9 @@ bool may_be_better(const PairedGain& gain) {
   return gain.interval.low && *gain.interval.low > 0.0 && gain.p > kSignificant;
 }
 
+/// No gain makes up for a run that is lost.
+bool loses_runs(const PairedGain& gain) { return gain.diverged > gain.diverged_before; }
+
 /// Of the runs that the point saves where every one with the defaults diverged.
 double p_of_saved(const PairedGain& gain) { return mcnemar_test(0, gain.saved_seeds).p; }
 
@@ -127,7 +130,8 @@ FrontVerdict front_verdict_of(std::span<const PairedGain> gains) {
   bool worse = false;
   for (const PairedGain& each : gains) {
     if (!each.gain || each.all_diverged || each.seeds < kFewestPairs) return FrontVerdict::kTooFew;
-    if (!is_significant(each)) continue;
+    if (loses_runs(each)) worse = true;
+    if (loses_runs(each) || !is_significant(each)) continue;
     if (*each.gain < 0.0) worse = true;
     if (*each.gain > 0.0 && !is_small(each)) better = true;
   }
@@ -196,6 +200,7 @@ Verdict verdict_of(const PairedGain& held_out) {
   if (!held_out.gain || held_out.all_diverged || held_out.seeds < 2) {
     return Verdict::kUndecided;
   }
+  if (loses_runs(held_out)) return Verdict::kDoNotUse;
   if (held_out.seeds < kFewestPairs) {
     return *held_out.gain < 0.0 ? Verdict::kDoNotUse : Verdict::kUndecided;
   }
@@ -224,6 +229,9 @@ std::string verdict_text(const PairedGain& held_out) {
   const std::string on =
       fmt::format("{}; objective {} on {} held-out sequences of {} seeds", measured_text(held_out),
                   change, held_out.sequences, held_out.seeds);
+  if (loses_runs(held_out)) {
+    return fmt::format("do not use them: more held-out runs diverge: {}", on);
+  }
   if (held_out.seeds < kFewestPairs) {
     const char* what = verdict_of(held_out) == Verdict::kDoNotUse ? "do not use them" : "undecided";
     return fmt::format("{}: {}, too few for an interval ({} seeds are needed)", what, on,
@@ -239,9 +247,11 @@ std::string verdict_text(const PairedGain& held_out) {
     return fmt::format("{}: {} ({})", better ? "use them" : "do not use them", on, figures);
   }
   if (may_be_better(held_out)) {
-    return fmt::format("undecided: {} ({}); decide in a plan of its own, on more seeds that "
-                       "were never looked at{}", on, figures,
-                       is_small(held_out) ? ", and the gain so far is too small to matter" : "");
+    return fmt::format(
+        "undecided: {} ({}); {}", on, figures,
+        is_small(held_out)
+            ? "the gain so far is too small to matter, so keep the defaults"
+            : "decide in a plan of its own, on more seeds that were never looked at");
   }
   return fmt::format("do not use them: no significant difference from the defaults: {} ({})", on,
                      figures);

@@ -7,12 +7,14 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <sstream>
 #include <string_view>
 #include <utility>
 
 #include "bench/metrics/statistics.hpp"
 #include "bench/scoring/score_list.hpp"
+#include "bench/scoring/score_record.hpp"
 #include "bench/scoring/validity.hpp"
 
 namespace aims {
@@ -43,6 +45,23 @@ std::optional<double> counted(const Objective& objective, const RunScore& run,
   if (reference != nullptr && !reference->value && reference->diverged) return kOfNoDefault;
   if (reference == nullptr || !reference->value || !(*reference->value > 0.0)) return std::nullopt;
   return *run.value / *reference->value;
+}
+
+bool is_valid(const std::vector<RunScore>& runs, std::size_t i) {
+  return i < runs.size() && runs[i].invalid.empty();
+}
+
+/// Whether each point with a valid run has one on that case, so that all are compared on the same.
+bool is_common_case(const ResponseTable& table, std::size_t i) {
+  const auto lacks_it = [&](const std::vector<RunScore>& runs) {
+    return !runs.empty() && !is_valid(runs, i) &&
+           std::ranges::any_of(runs, [](const RunScore& run) { return run.invalid.empty(); });
+  };
+  const bool known = !table.default_runs.empty() || !table.runs.empty();
+  const bool any = is_valid(table.default_runs, i) ||
+                   std::ranges::any_of(table.runs, [&](auto& runs) { return is_valid(runs, i); });
+  return !known ||
+         (any && !lacks_it(table.default_runs) && std::ranges::none_of(table.runs, lacks_it));
 }
 
 template <class Value>
@@ -83,7 +102,8 @@ std::string text_of(const Objective& objective) {
       is_timing(objective.score) ? "; a time depends on the machine and on its load" : "";
   const std::string penalty =
       objective.divergence_penalty == 0.0
-          ? fmt::format("a diverged run counts by its score, {} without one", kWithoutScore)
+          ? fmt::format("a diverged run counts by its score, {} without one or with poses missing",
+                        kWithoutScore)
           : fmt::format("a diverged run counts at least {0}, and {0} times their fraction is added",
                         objective.divergence_penalty);
   return fmt::format("{} of {}{}; {}{}", statistic, objective.score,
@@ -127,8 +147,8 @@ std::string unit_of_score(const std::string& score) {
 RunScore run_score(const JobResult& job, const std::string& score) {
   if (auto reason = invalid_reason(job.sequence)) return {std::nullopt, false, std::move(*reason)};
   const bool done = job.outcome == JobOutcome::kDone;
-  return {score_in(job, score), !done || score_in(job, "success") == 0.0, "",
-          done ? "" : job.message};
+  return {is_partial(job.scores) ? std::nullopt : score_in(job, score),
+          !done || score_in(job, "success") == 0.0, "", done ? "" : job.message};
 }
 
 std::optional<double> objective_value(const Objective& objective, std::span<const RunScore> runs,
@@ -155,7 +175,8 @@ std::optional<double> objective_value(const Objective& objective, std::span<cons
 std::vector<std::size_t> cases_of(const ResponseTable& table, const std::string& family) {
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < table.cases.size(); ++i) {
-    if (family.empty() || table.cases[i].family == family) indices.push_back(i);
+    if (!family.empty() && table.cases[i].family != family) continue;
+    if (is_common_case(table, i)) indices.push_back(i);
   }
   return indices;
 }
@@ -177,9 +198,24 @@ std::vector<std::size_t> joined(const SeedGroups& groups, std::span<const std::s
   return cases;
 }
 
+std::vector<std::size_t> distinct_points(const ResponseTable& table) {
+  std::set<std::vector<double>> known;
+  std::vector<std::size_t> points;
+  for (std::size_t k = 0; k < table.points.size(); ++k) {
+    if (known.insert(table.points[k]).second) points.push_back(k);
+  }
+  return points;
+}
+
+std::size_t other_points(const ResponseTable& table) {
+  const auto points = distinct_points(table);
+  return static_cast<std::size_t>(std::ranges::count_if(
+      points, [&](std::size_t k) { return table.points[k] != table.defaults; }));
+}
+
 std::vector<std::string> families_of(const ResponseTable& table) {
   std::vector<std::string> families;
-  for (const ResponseCase& each : table.cases) append_new(families, each.family);
+  for (const std::size_t i : cases_of(table, "")) append_new(families, table.cases[i].family);
   return families;
 }
 
@@ -244,7 +280,7 @@ bool defaults_all_diverged(const ResponseTable& table) {
 
 std::vector<std::uint64_t> seeds_of(const ResponseTable& table) {
   std::vector<std::uint64_t> seeds;
-  for (const ResponseCase& each : table.cases) append_new(seeds, each.seed);
+  for (const std::size_t i : cases_of(table, "")) append_new(seeds, table.cases[i].seed);
   return seeds;
 }
 

@@ -23,8 +23,8 @@ enum class ObjectiveStatistic { kMedian, kWorst, kMean, kQuantile };
 struct Objective {
   std::string score = "ate_yaw_m";  ///< dotted key of scores.json, e.g. "m_list_percent.all"
   ObjectiveStatistic statistic = ObjectiveStatistic::kMedian;
-  double quantile = 0.9;           ///< for `kQuantile`, in (0, 1)
-  bool relative = true;            ///< each score over that of the defaults on the same sequence
+  double quantile = 0.9;  ///< for `kQuantile`, in (0, 1)
+  bool relative = true;   ///< each score over that of the defaults on the same sequence
   /// Value of a diverged run, and added times their fraction; 0: it counts by its score.
   double divergence_penalty = 10;
 };
@@ -53,7 +53,7 @@ struct RunScore {
 };
 
 /// The score of that key of a job. A job that failed is a diverged run; an invalid run has no score
-/// and is not diverged.
+/// and is not diverged. An estimate that leaves a part of the run out (`is_partial`) has no score.
 RunScore run_score(const JobResult& job, const std::string& score);
 
 /// Counts for a run that failed before it had a score, where there is no penalty.
@@ -94,6 +94,13 @@ SeedGroups cases_by_seed(const ResponseTable& table, std::span<const std::size_t
 
 /// The cases of the groups with the indices `drawn`.
 std::vector<std::size_t> joined(const SeedGroups& groups, std::span<const std::size_t> drawn);
+
+/// The points of the table, of those with the same values the first: an optimizer comes back to
+/// some, which is no further evidence.
+std::vector<std::size_t> distinct_points(const ResponseTable& table);
+
+/// How many of them are not the defaults.
+std::size_t other_points(const ResponseTable& table);
 
 /// The families of the table's cases, in the order in which they appear.
 std::vector<std::string> families_of(const ResponseTable& table);

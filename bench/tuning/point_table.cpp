@@ -26,12 +26,13 @@ struct PointSummary {
   bool is_default = false;
   bool is_best = false;
   bool is_resolved = false;  ///< points differ by more than seeds scatter
+  std::string best_mark;     ///< of the best one: " best", unless points are not resolved
   std::vector<double> values;
   std::optional<double> objective;
   std::optional<double> median;  ///< of the score
   std::optional<double> worst;   ///< likewise
   std::size_t diverged = 0;
-  std::size_t runs = 0;
+  std::size_t runs = 0;  ///< that are valid
 };
 
 PointSummary summary_of(const ResponseTable& table, const Objective& objective, std::size_t point) {
@@ -44,11 +45,11 @@ PointSummary summary_of(const ResponseTable& table, const Objective& objective, 
   for (const RunScore& run : runs) {
     if (run.value) scores.push_back(*run.value);
     if (run.diverged) ++summary.diverged;
+    if (run.invalid.empty()) ++summary.runs;
   }
   summary.objective = objective_at(table, objective, point, cases_of(table, ""));
   summary.median = median(scores);
   summary.worst = worst_of(scores, objective.score);
-  summary.runs = runs.size();
   return summary;
 }
 
@@ -62,6 +63,10 @@ std::vector<PointSummary> summaries_of(const SweepResponse& response, const Obje
     summaries.push_back(summary_of(table, objective, point));
     summaries.back().is_best = best && best->point == point;
     summaries.back().is_resolved = resolved;
+    summaries.back().best_mark = !is_inside(table, summaries.back().values)
+                                     ? " least, outside the ranges"
+                                 : resolved ? " best"
+                                            : " least, not resolved";
   };
   if (!table.default_runs.empty()) add(kDefaults);
   for (std::size_t k = 0; k < table.points.size(); ++k) {
@@ -107,8 +112,7 @@ TableColumns<PointSummary> point_columns(const std::vector<ParameterRange>& rang
       {"objective", "", &Point::objective},
       {"", "objective",
        [](const Point& point) {
-         const char* mark = point.is_resolved ? " best" : " least, not resolved";
-         return figure_text(point.objective) + (point.is_best ? mark : "");
+         return figure_text(point.objective) + (point.is_best ? point.best_mark : "");
        }},
       {"score_median", "score (" + score + "), median", &Point::median, "{:.3g}"},
       {"score_worst", "worst", &Point::worst, "{:.3g}"},
@@ -117,7 +121,8 @@ TableColumns<PointSummary> point_columns(const std::vector<ParameterRange>& rang
       {"", "diverged",
        [](const Point& point) { return fmt::format("{} of {}", point.diverged, point.runs); }},
       {"default", "", &Point::is_default},
-      {"best", "", &Point::is_best}};
+      {"best", "", &Point::is_best},
+      {"resolved", "", &Point::is_resolved}};
   columns.insert(columns.end(), figures.begin(), figures.end());
   return columns;
 }

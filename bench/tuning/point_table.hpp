@@ -20,7 +20,7 @@ TextTable point_table(std::span<const SweepResponse> responses, const Objective&
 
 /// The same of one estimator: `estimator`, `objective` (what it is), `incomplete` and `points`,
 /// each with `values`, `objective`, `score_median`, `score_worst`, `diverged`, `runs`, `default`,
-/// `best`.
+/// `best`, `resolved` (points differ by more than seeds scatter).
 Json response_json(const SweepResponse& response, const Objective& objective);
 
 }  // namespace aims

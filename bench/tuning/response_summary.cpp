@@ -107,6 +107,12 @@ std::string best_cell(const BestPoint& best, const Sensitivity* sensitivity, std
                     : figure_text(best.values[i], best.between[i]);
 }
 
+/// Best minus default in widths of the range; a default of zero has none on a logarithmic one.
+std::string distance_cell(const BestPoint& best, std::size_t i) {
+  const bool known = !best.without_effect[i] && std::isfinite(best.distance[i]);
+  return known ? fmt::format("{:+.2f}", best.distance[i]) : "-";
+}
+
 /// Objective and score of the best point, and of the defaults where they are not the best.
 std::string best_markdown(const ResponseTable& table, const Objective& objective,
                           const BestPoint& best) {
@@ -115,8 +121,9 @@ std::string best_markdown(const ResponseTable& table, const Objective& objective
                   figure_text(best.objective, best.objective_interval), objective.score,
                   figure_text(median(scores_of(runs_at(table, best.point), cases_of(table, "")))));
   if (best.is_default()) return fmt::format("The defaults have {}.\n", figures);
-  return fmt::format("The best of {} points has {}; the defaults have an objective of {}.\n",
-                     table.points.size(), figures, figure_text(best.defaults));
+  return fmt::format(
+      "The best of {} points besides the defaults has {}; these have an objective of {}.\n",
+      other_points(table), figures, figure_text(best.defaults));
 }
 
 /// What the best point gains over the defaults.
@@ -176,7 +183,7 @@ TextTable parameter_table(const ResponseTable& table, const BestPoint& best,
     text.rows.push_back({range.key,
                          fmt::format("{} to {}{}", range.low, range.high, range.log ? ", log" : ""),
                          fmt::format("{}", table.defaults[i]), best_cell(best, sensitivity, i),
-                         best.without_effect[i] ? "-" : fmt::format("{:+.2f}", best.distance[i])});
+                         distance_cell(best, i)});
     if (sensitivity == nullptr) continue;
     if (!sensitivity->is_resolved()) {
       text.rows.back().insert(text.rows.back().end(), {"not resolved", "not resolved"});
@@ -196,14 +203,13 @@ TextTable gain_table(const ResponseTable& table, const Objective& objective, std
                  "tuned [95 %]", "diverged, defaults",
                  "tuned"};
   std::vector<std::string> names;
-  for (const ResponseCase& each : table.cases) {
-    if (std::find(names.begin(), names.end(), each.scenario) == names.end()) {
-      names.push_back(each.scenario);
-    }
+  for (const std::size_t i : cases_of(table, "")) {
+    const std::string& name = table.cases[i].scenario;
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   for (const std::string& name : names) {
     std::vector<std::size_t> cases;
-    for (std::size_t i = 0; i < table.cases.size(); ++i) {
+    for (const std::size_t i : cases_of(table, "")) {
       if (table.cases[i].scenario == name) cases.push_back(i);
     }
     text.rows.push_back(gain_row(table, objective, point, name, cases));
@@ -225,7 +231,9 @@ std::string response_markdown(const ResponseTable& table, const Objective& objec
                                : Result<Sensitivity>(failure(why_no_indices_of_one(effect)));
   std::string text =
       fmt::format("Objective: {}.\n{}", text_of(objective), best_markdown(table, objective, *best));
-  text += fmt::format("Best values: {}.\n{}", text_of(*best, table), gain_markdown(*best));
+  text += fmt::format("{}: {}.\n{}",
+                      effect.is_resolved() ? "Best values" : "Least objective, not resolved",
+                      text_of(*best, table), gain_markdown(*best));
   for (const std::string& line : left_out_lines(table)) text += fmt::format("- {}\n", line);
   for (const std::string& line : failed_lines(table)) text += fmt::format("- {}\n", line);
   const std::size_t seeds = seeds_of(table).size();

@@ -86,6 +86,26 @@ Result<void> check_plans(FolderPlan a, FolderPlan b) {
       a.file.string(), b.file.string(), fmt::join(found, "; ")));
 }
 
+/// Which version of a scenario and an estimator at a point was run, and in which folder.
+class Versions {
+ public:
+  /// Error where an earlier folder has another version of the same.
+  Result<void> add(const fs::path& folder, const ListedJob& job) {
+    if (job.version.empty()) return {};
+    const auto [known, is_new] = known_.try_emplace(
+        fmt::format("{} of {}", job.estimator, job.scenario), job.version, folder);
+    if (is_new || known->second.first == job.version) return {};
+    return failure(fmt::format(
+        "{} and {} have two versions of {}: the scenario file or the source of a class in Python "
+        "has changed between them; expected folders of one version; nothing was written, run one "
+        "of them again",
+        known->second.second.string(), folder.string(), known->first));
+  }
+
+ private:
+  std::map<std::string, std::pair<std::string, fs::path>> known_;
+};
+
 }  // namespace
 
 std::string MergedJob::outcome() const {
@@ -108,6 +128,7 @@ Result<MergedSweep> merge_sweeps(std::span<const fs::path> folders) {
   std::map<std::string, std::size_t> index;
   std::set<std::string> others;
   std::optional<FolderPlan> first;
+  Versions versions;
   for (const fs::path& path : folders) {
     const JobStore folder(path);
     auto listed = folder.listed();
@@ -124,6 +145,7 @@ Result<MergedSweep> merge_sweeps(std::span<const fs::path> folders) {
       sweep.plans.push_back(*plan);
     }
     for (ListedJob& job : *listed) {
+      if (auto same = versions.add(path, job); !same) return tl::unexpected(same.error());
       const auto [at, added] = index.emplace(job.id, sweep.jobs.size());
       if (added) sweep.jobs.push_back({std::move(job), Json()});
     }
@@ -134,8 +156,11 @@ Result<MergedSweep> merge_sweeps(std::span<const fs::path> folders) {
         continue;
       }
       MergedJob& job = sweep.jobs[at->second];
-      if (is_done(job)) continue;
-      if (Json file = file_of(folder, id); !file.is_null()) job.file = std::move(file);
+      Json file = file_of(folder, id);
+      if (file.is_null()) continue;
+      const bool done = value_in(file, "outcome", "") == name_of(JobOutcome::kDone);
+      if (!job.file.is_null() && done != is_done(job)) ++sweep.repeated;
+      if (!is_done(job)) job.file = std::move(file);
     }
   }
   // A later folder may list what an earlier one has a result of.

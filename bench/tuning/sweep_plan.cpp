@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <system_error>
 #include <utility>
 
 #include "bench/jobs/job_id.hpp"
@@ -14,6 +15,7 @@
 #include "bench/tuning/plan_paths.hpp"
 #include "bench/tuning/range_key.hpp"
 #include "bench/tuning/scenario_variants.hpp"
+#include "core/files/atomic_file.hpp"
 #include "core/files/config_dump.hpp"
 #include "core/files/yaml_config.hpp"
 
@@ -21,6 +23,8 @@ namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kObjectiveFile = "objective.yaml";
 
 using Scenarios = std::vector<std::shared_ptr<const Scenario>>;
 
@@ -141,7 +145,8 @@ Result<void> add_jobs(std::span<const std::uint64_t> seeds, std::span<const Plan
         auto [on_seed, drawn_ids] = drawn.find(scenario);
         std::string id = (drawn_ids == nullptr ? own : drawn_ids)->id(seed, key);
         if (!known.insert(id).second) continue;
-        jobs.push_back({on_seed, seed, point->estimator, std::move(id), point->variant.settings});
+        jobs.push_back({on_seed, seed, point->estimator, std::move(id), point->variant.settings,
+                        own->version(key)});
       }
     }
   }
@@ -187,6 +192,21 @@ std::string plan_text(const SweepPlan& plan) {
   return dump_config(fields_of(copy));
 }
 
+Result<void> write_objective(const Objective& objective, const fs::path& folder) {
+  Objective copy = objective;
+  return write_file_atomically(folder / kObjectiveFile, dump_config(fields_of(copy)));
+}
+
+Result<Objective> objective_in(const fs::path& folder) {
+  Objective objective;
+  std::error_code ignored;
+  if (!fs::exists(folder / kObjectiveFile, ignored)) return objective;
+  if (auto read = load_config(folder / kObjectiveFile, objective); !read) {
+    return tl::unexpected(read.error());
+  }
+  return objective;
+}
+
 Result<Scenarios> plan_scenarios(std::span<const std::string> names,
                                  std::span<const std::string> tags,
                                  std::span<const std::string> settings, const fs::path& folder) {
@@ -205,6 +225,30 @@ Result<Scenarios> plan_scenarios(std::span<const std::string> names,
   return scenarios;
 }
 
+namespace {
+
+/// Error for two estimators that differ in nothing but what is varied: their points are the same.
+Result<void> check_different(const std::vector<EstimatorSpec>& estimators,
+                             std::span<const ParameterRange> ranges) {
+  std::map<std::string, std::string> known;
+  for (EstimatorSpec spec : estimators) {
+    std::erase_if(spec.settings, [&](const auto& setting) {
+      return std::ranges::any_of(
+          ranges, [&](const ParameterRange& range) { return range.key == setting.first; });
+    });
+    std::ranges::sort(spec.settings);
+    const auto [same, is_new] = known.emplace(unlabelled_text(spec), spec.label);
+    if (is_new) continue;
+    return failure(fmt::format(
+        "estimators: {} and {} differ in nothing but what is varied, so that they are the same at "
+        "every point; expected one of them",
+        same->second, spec.label));
+  }
+  return {};
+}
+
+}  // namespace
+
 Result<std::vector<Job>> plan_jobs(const SweepPlan& plan, const fs::path& folder) {
   const auto estimators = estimators_of(plan);
   if (!estimators) return tl::unexpected(estimators.error());
@@ -216,6 +260,9 @@ Result<std::vector<Job>> plan_jobs(const SweepPlan& plan, const fs::path& folder
   if (!seeds) return tl::unexpected(seeds.error());
   const auto ranges = parse_ranges(plan.params, plan.estimators);
   if (!ranges) return tl::unexpected(ranges.error());
+  if (auto different = check_different(*estimators, *ranges); !different) {
+    return tl::unexpected(different.error());
+  }
   std::vector<Job> jobs;
   std::set<std::string> ids;
   for (const auto& scenario : *scenarios) {

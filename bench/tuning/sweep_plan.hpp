@@ -9,6 +9,7 @@
 
 #include "bench/jobs/job.hpp"
 #include "bench/tuning/design.hpp"
+#include "bench/tuning/objective.hpp"
 #include "core/config.hpp"
 #include "core/error.hpp"
 
@@ -50,5 +51,12 @@ Result<std::vector<std::shared_ptr<const Scenario>>> plan_scenarios(
 /// that a parameter does not allow, and a plan without any job.
 Result<std::vector<Job>> plan_jobs(const SweepPlan& plan,
                                    const std::filesystem::path& scenario_folder);
+
+/// Writes what the results of a sweep were analysed by to `objective.yaml` of their folder.
+Result<void> write_objective(const Objective& objective, const std::filesystem::path& folder);
+
+/// What `write_objective` wrote there last; the default one where it did not. Error for a file that
+/// cannot be read.
+Result<Objective> objective_in(const std::filesystem::path& folder);
 
 }  // namespace aims

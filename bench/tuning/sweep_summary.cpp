@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/tuning/sweep_summary.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -67,6 +67,14 @@ void add_default_point(ResponseTable& table) {
   table.runs.push_back(table.default_runs);
 }
 
+/// Where the plain defaults were not run, as by a tuning that has them among its points, those.
+void find_default_runs(ResponseTable& table) {
+  if (!table.default_runs.empty()) return;
+  const auto found = std::find(table.points.begin(), table.points.end(), table.defaults);
+  if (found == table.points.end()) return;
+  table.default_runs = table.runs[static_cast<std::size_t>(found - table.points.begin())];
+}
+
 /// Adds a plan's estimators with their settings in order; one without a label has its name.
 void add_planned(const std::vector<std::string>& texts, std::vector<EstimatorSpec>& planned) {
   for (const std::string& text : texts) {
@@ -123,6 +131,7 @@ Result<SweepResponse> response_of(const Collected& collected, const VariedParame
       table.runs.push_back(std::move(*runs));
     }
   }
+  find_default_runs(table);
   if (response.incomplete == 0) add_default_point(table);
   return response;
 }
@@ -252,12 +261,28 @@ Result<std::vector<SweepResponse>> sweep_responses(const MergedSweep& sweep,
   return responses;
 }
 
+std::string unstarted_text(const MergedSweep& sweep) {
+  std::map<std::string, bool> done;
+  for (const MergedJob& job : sweep.jobs) {
+    bool& any = done[job.listed.scenario + " seed " + job.listed.seed];
+    any = any || job.outcome() != "missing";
+  }
+  std::vector<std::string> open;
+  for (const auto& [sequence, any] : done) {
+    if (!any) open.push_back(sequence);
+  }
+  if (open.empty()) return "";
+  return fmt::format("{} of {} sequences are left out, since no job of them is done: {}",
+                     open.size(), done.size(), fmt::join(open, ", "));
+}
+
 Result<void> write_sweep_summary(const MergedSweep& sweep, const Objective& objective,
                                  const fs::path& folder) {
   const auto responses = sweep_responses(sweep, objective.score);
   if (!responses) return tl::unexpected(responses.error());
   std::string text = "# Sweep\n";
   text += fmt::format("\n{} of {} jobs done.\n", sweep.count("done"), sweep.jobs.size());
+  if (const std::string open = unstarted_text(sweep); !open.empty()) text += open + ".\n";
   for (const SweepResponse& response : *responses) {
     text += fmt::format("\n## `{}`\n\n", response.estimator);
     if (response.incomplete > 0) {

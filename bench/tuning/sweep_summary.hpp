@@ -56,6 +56,9 @@ struct SweepResponse {
 Result<std::vector<SweepResponse>> sweep_responses(const MergedSweep& sweep,
                                                    const std::string& score);
 
+/// A sentence on sequences of which no job is done, so that every point lacks them; empty: none.
+std::string unstarted_text(const MergedSweep& sweep);
+
 /// Writes sweep.md with the best points and sensitivity indices into `folder`, so far as jobs are
 /// done. Where default runs are missing, a relative objective becomes one of plain scores.
 Result<void> write_sweep_summary(const MergedSweep& sweep, const Objective& objective,

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 #include "bench/run/code_version.hpp"
 #include "bench/scoring/score_record.hpp"
@@ -163,7 +162,7 @@ Json tune_json(const TuneResult& result) {
       {"estimator", text_of(result.task.estimator)},
       {"complete", result.complete},
       {"converged", result.converged},
-      {"points", result.generation.size()},
+      {"points", result.tables.empty() ? 0 : distinct_points(result.tables.front()).size()},
       {"tuned_on", result.task.sequences.size()},
       {"held_out", result.task.held_out.size()},
       {"verdict", nullptr},
@@ -185,11 +184,8 @@ Json tune_json(const TuneResult& result) {
 }
 
 std::string search_text(const TuneResult& result) {
-  std::size_t points = result.generation.size();
-  if (!result.tables.empty()) {
-    const auto& all = result.tables.front().points;
-    points = std::set<std::vector<double>>(all.begin(), all.end()).size();
-  }
+  const std::size_t points = result.tables.empty() ? result.generation.size()
+                                                   : distinct_points(result.tables.front()).size();
   const int generations = result.generation.empty() ? 0 : result.generation.back();
   return fmt::format("{} different points in {} generation{} of {}, seed {}{}", points, generations,
                      generations == 1 ? "" : "s", result.task.plan.optimizer.population,
@@ -272,6 +268,9 @@ Result<void> write_tuning(const TuneResult& result, const std::filesystem::path&
   auto written = write_file_atomically(folder / "tune.md", markdown_of(result));
   if (!written) return written;
   written = write_file_atomically(folder / "tune.csv", csv_of(result).text());
+  if (written) {
+    written = write_file_atomically(folder / kTuneFile, json_text(tune_json(result), 1) + "\n");
+  }
   if (!written || result.chosen.empty() || result.tables.size() != 1) return written;
   return write_overlay(result, folder / "tuned.yaml");
 }

@@ -15,6 +15,8 @@ namespace aims {
 /// "90 different points in 8 generations of 10, seed 1".
 std::string search_text(const TuneResult& result);
 
+inline constexpr const char* kTuneFile = "tune.json";  ///< in the folder of a tuning
+
 /// Schema aims.tune/1: objectives, verdict, and values and objectives of the defaults and of the
 /// chosen points.
 Json tune_json(const TuneResult& result);
@@ -27,7 +29,8 @@ TextTable outcome_table(const TuneResult& result);
 /// held-out sequences say of it.
 TextTable front_table(const TuneResult& result);
 
-/// Writes tune.md, tune.csv (every point) and tuned.yaml (of one objective) into `folder`.
+/// Writes tune.md, tune.json, tune.csv (every point) and tuned.yaml (of one objective) into
+/// `folder`.
 Result<void> write_tuning(const TuneResult& result, const std::filesystem::path& folder);
 
 /// A line per sequence whose run is invalid, of those tuned on and those held out.

@@ -56,13 +56,13 @@ std::string held_out_verdict(const TuneResult& result) {
     return fmt::format(
         "keep the defaults: the Pareto front has no other point: none of the {} others is better "
         "in an objective on the sequences tuned on",
-        result.generation.size() - 1);
+        other_points(result.tables.front()));
   }
   if (keeps_defaults(result)) {
     return fmt::format(
         "keep the defaults: none of the {} other points is better on the sequences "
         "tuned on",
-        result.generation.size() - 1);
+        other_points(result.tables.front()));
   }
   if (result.held_out.empty() && !result.task.held_out.empty()) {
     return "not validated: interrupted before the held-out sequences were run";

@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kEdge = 0.02;  ///< this near to an end, in widths of the range
 
+constexpr double kAtEdge = 1e-9;  ///< likewise; farther off a value is near it
+
 /// " (at the lower edge ...)", or nothing.
 std::string edge_text(const ParameterRange& range, double value) {
   const double fraction = fraction_of(range, value);
@@ -21,11 +23,12 @@ std::string edge_text(const ParameterRange& range, double value) {
   if (!lower && fraction < 1.0 - kEdge) return "";
   const Range allowed = allowed_values(range);
   const bool final = lower ? range.low <= allowed.min : range.high >= allowed.max;
+  const bool at = lower ? fraction <= kAtEdge : fraction >= 1.0 - kAtEdge;
   const char* beyond = !final  ? "the optimum may lie outside"
-                       : lower ? "no smaller value is allowed"
-                               : "no larger value is allowed";
-  return fmt::format(" (at the {} edge of its range {} to {}: {})", lower ? "lower" : "upper",
-                     range.low, range.high, beyond);
+                       : lower ? "values below it are not allowed"
+                               : "values above it are not allowed";
+  return fmt::format(" ({} the {} edge of its range {} to {}: {})", at ? "at" : "near",
+                     lower ? "lower" : "upper", range.low, range.high, beyond);
 }
 
 }  // namespace

@@ -144,6 +144,7 @@ class PythonEstimator final : public Estimator {
     Trajectory& trajectory = result_.trajectory;
     if (!pose) {
       ++result_.counts["pose_not_rigid"];
+      if (is_measured(stamp)) result_.invalid_poses.push_back(stamp);
     } else if (!is_measured(stamp)) {
       ++result_.counts["pose_stamp_not_measured"];
     } else if (!trajectory.empty() && stamp <= trajectory.back().stamp) {

@@ -42,6 +42,11 @@ bool is_up_to_date(const fs::path& run) {
 
 Result<PageData> page_of(const fs::path& folder, const PageOptions& options) {
   if (holds_suite(folder)) return suite_page(folder, options);
+  if (!options.against.empty() || !options.detectors.empty()) {
+    return failure(
+        fmt::format("{}: has no suite.json: {} has an effect on the page of a suite alone",
+                    folder.string(), options.against.empty() ? "--detectors" : "--against"));
+  }
   if (holds_tuning(folder)) return tuning_page(folder, options);
   if (holds_run(folder)) return run_page(folder);
   if (!seed_folders(folder).empty()) return seeds_page(folder, options);

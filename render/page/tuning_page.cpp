@@ -18,6 +18,7 @@
 #include "bench/studies/suite_summary.hpp"
 #include "bench/tuning/range_key.hpp"
 #include "bench/tuning/sweep_summary.hpp"
+#include "bench/tuning/tune_summary.hpp"
 #include "bench/tuning/tune_verdict.hpp"
 #include "render/page/links.hpp"
 #include "render/page/series.hpp"
@@ -234,6 +235,14 @@ Json counts_json(const MergedSweep& units) {
   return json;
 }
 
+/// What the held-out sequences say of a Pareto front; null of one objective and without results.
+Json front_json(const TuningSource& source, const fs::path& folder) {
+  if (source.objectives.size() < 2 || !source.tuned) return {};
+  const auto text = read_file(folder / kTuneFile);
+  const auto json = text ? parse_json(*text, kTuneFile) : tl::unexpected(text.error());
+  return json ? member(*json, "verdict") : Json();
+}
+
 /// That held-out results were seen before the last ones; null: they were not.
 Json looked_json(const fs::path& folder) {
   const std::size_t looks = looks_in(folder).size();
@@ -283,6 +292,7 @@ Result<PageData> tuning_page(const fs::path& folder, const PageOptions& /*option
                {"plan", source->plan},
                {"jobs", counts_json(source->units)},
                {"looked", looked_json(folder)},
+               {"front", front_json(*source, folder)},
                {"held_out_jobs", counts_json(source->held_out)},
                {"scores", scores},
                {"sequences", sequences_json(all.sequences)},

@@ -150,7 +150,9 @@ Result<TuningSource> read_sweep(const fs::path& folder) {
   if (!units) return tl::unexpected(units.error());
   source.units = std::move(*units);
   source.plan = source.units.plans.front();
-  source.objectives = {Objective{}};
+  auto objective = objective_in(folder);
+  if (!objective) return tl::unexpected(objective.error());
+  source.objectives = {std::move(*objective)};
   return source;
 }
 

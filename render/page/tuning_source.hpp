@@ -26,7 +26,7 @@ struct TuningSource {
   MergedSweep units;   ///< of a tuning: on the sequences that it uses
   MergedSweep held_out;
   bool holds_out = false;  ///< the plan names held-out sequences, whether or not they were run
-  std::vector<Objective> objectives;                 ///< a sweep's: the default one
+  std::vector<Objective> objectives;                 ///< a sweep's: that of the last merge
   std::map<std::vector<double>, TunedPoint> points;  ///< of a finished tuning, by their values
   std::vector<std::string> notes;                    ///< what could not be used
 };

@@ -210,6 +210,36 @@ TEST(ScoreTable, AnEstimatorThatFailedSomewhereHasNoStar) {
   EXPECT_GT(stars("aims"), 0);
 }
 
+TEST(ScoreTable, AnEstimatorThatStoppedEarlySomewhereHasNoStar) {
+  std::vector<RunRecord> runs = {record(1, 0.9, kFine), record(2, 0.9, kFine)};
+  for (RunRecord& run : runs) {
+    run.scores["estimators"]["stops"] = run.scores["estimators"]["aims"];
+    run.scores["estimators"]["stops"]["ate_m"] = 0.001;
+  }
+  const auto stars = [&] {
+    const TextTable table = score_table(runs);
+    const auto row =
+        std::ranges::find_if(table.rows, [](const auto& each) { return each[0] == "stops"; });
+    return std::ranges::count_if(*row, [](const auto& cell) { return cell.ends_with('*'); });
+  };
+  EXPECT_GT(stars(), 0);
+  runs[1].scores["estimators"]["stops"]["success"] = false;
+  runs[1].scores["estimators"]["stops"]["diverged_reason"] = "error_limit";
+  EXPECT_GT(stars(), 0) << "its error is that of the whole run";
+  runs[1].scores["estimators"]["stops"]["diverged_reason"] = "ends_early";
+  EXPECT_EQ(stars(), 0);
+}
+
+TEST(ScoreTable, OfARunOnWhichEveryEstimatorFailedHasTheirRows) {
+  RunRecord run;
+  run.seed = 1;
+  run.scores["failures"] = {{{"estimator", "broken"}, {"message", "boom"}}};
+  const TextTable table = score_table({&run, 1});
+  ASSERT_EQ(table.rows.size(), 1U);
+  EXPECT_EQ(table.rows[0][0], "broken");
+  EXPECT_FALSE(score_legend({&run, 1}, {}).empty());
+}
+
 TEST(ScoreStatistics, OfErrorsWithASignTheWorstIsTheLargest) {
   EXPECT_EQ(worst_of({-3.0, 1.0, 2.0}, "drift_m.end.longitudinal"), -3.0);
   EXPECT_EQ(worst_of({0.1, 0.3}, "ate_yaw_m"), 0.3);

@@ -233,6 +233,31 @@ TEST(Compare, AnEstimatorThatFailsHasLostItsSuccess) {
   EXPECT_TRUE(compare(after, after).fails_now.empty());
 }
 
+// The error of the first 3 s says nothing about a walk of 30 s.
+TEST(Compare, AnEstimateThatEndsEarlyIsComparedByItsSuccessAlone) {
+  const StoredResults before = results(kBefore);
+  StoredResults after = before;
+  for (RunRecord& run : after["walk"]) {
+    run.scores["estimators"]["aims"] = {
+        {"ate_m", 1e-5}, {"success", false}, {"diverged_reason", "ends_early"}};
+  }
+  const Comparison comparison = compare(before, after);
+  EXPECT_EQ(count(comparison, ChangeVerdict::kBetter), 0U);
+  EXPECT_EQ(count(comparison, ChangeVerdict::kWorse), 1U);
+  EXPECT_EQ(comparison.partial, std::vector<std::string>{"after: walk, aims, seed 1,2,3,4,5,6"});
+}
+
+TEST(Compare, OfAnEstimatorThatFailedOnAllRunsIsTheSameBothWays) {
+  const StoredResults whole = results(kBefore);
+  StoredResults failed = whole;
+  for (RunRecord& run : failed["walk"]) {
+    run.scores["estimators"].clear();
+    run.scores["failures"] = {{{"estimator", "aims"}, {"message", "killed"}}};
+  }
+  EXPECT_EQ(count(compare(whole, failed), ChangeVerdict::kWorse), 1U);
+  EXPECT_EQ(count(compare(failed, whole), ChangeVerdict::kBetter), 1U);
+}
+
 TEST(Compare, NamesSettingsOfOneSideAndWhetherTheyAreOfTheTask) {
   const auto text = [](std::vector<std::string> before, std::vector<std::string> after) {
     return settings_text(with_settings({}, std::move(before), std::move(after)));

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "bench/tuning/analysis.hpp"
+#include "bench/tuning/effect.hpp"
 #include "bench/tuning/held_out.hpp"
 #include "bench/tuning/objective.hpp"
 #include "bench/tuning/response_summary.hpp"
@@ -45,6 +46,75 @@ TEST(InvalidRunsOfTuning, AreCountedPerSequence) {
   EXPECT_EQ(left_out_lines(table),
             std::vector<std::string>{"corridor seed 3: 1 of 2 runs are invalid and left out (the "
                                      "robot fell at 1.2 s)"});
+}
+
+// Otherwise a point would look good by the easier seeds that it has left.
+TEST(InvalidRunsOfTuning, AtOnePointTakeTheirSeedFromAllPoints) {
+  const RunScore fallen = {std::nullopt, false, "the robot fell at 1.2 s"};
+  ResponseTable table;
+  table.ranges = {{.key = "a", .low = 0.0, .high = 1.0}};
+  table.defaults = {0.5};
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) table.cases.push_back({"walk", "walk", seed});
+  table.points = {{0.0}, {0.5}, {1.0}};
+  table.runs = {{{0.1}, {0.5}, {0.9}}, {{0.1}, {0.5}, fallen}, {fallen, fallen, fallen}};
+  EXPECT_EQ(cases_of(table, ""), (std::vector<std::size_t>{0, 1}));
+  EXPECT_TRUE(effect_of(table, objective_for({}, table)).is_none());
+}
+
+// A seed whose robot fell at every point is no seed: the others are still tested.
+TEST(InvalidRunsOfTuning, OfAWholeSeedLeaveTheOtherSeedsTheirTest) {
+  const RunScore fallen = {std::nullopt, false, "the robot fell at 1.2 s"};
+  ResponseTable table;
+  table.ranges = {{.key = "a", .low = 0.0, .high = 1.0}};
+  table.defaults = {0.5};
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) table.cases.push_back({"walk", "walk", seed});
+  for (const double a : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    table.points.push_back({a});
+    table.runs.push_back({{0.1 + a}, {0.2 + a}, fallen, {0.1 + a}, {0.3 + a}});
+  }
+  EXPECT_EQ(seeds_of(table).size(), 4U);
+  EXPECT_EQ(cases_of(table, "").size(), 4U);
+  const Effect effect = effect_of(table, objective_for({}, table));
+  ASSERT_TRUE(effect.p);
+  EXPECT_TRUE(effect.is_resolved());
+}
+
+// An optimizer that comes back to a point draws no new evidence: noise stays noise.
+TEST(FailedRunsOfTuning, RepeatedPointsAreNoFurtherEvidence) {
+  ResponseTable table;
+  table.ranges = {{.key = "n", .low = 0.0, .high = 4.0}};
+  table.defaults = {9.0};
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) table.cases.push_back({"walk", "walk", seed});
+  const std::vector<std::vector<RunScore>> noise = {{{0.10}, {0.14}, {0.11}, {0.12}},
+                                                    {{0.13}, {0.10}, {0.12}, {0.14}},
+                                                    {{0.11}, {0.12}, {0.15}, {0.13}},
+                                                    {{0.15}, {0.11}, {0.10}, {0.11}}};
+  for (std::size_t k = 0; k < noise.size(); ++k) {
+    table.points.push_back({static_cast<double>(k)});
+    table.runs.push_back(noise[k]);
+  }
+  const auto once = effect_of(table, objective_for({}, table)).p;
+  for (int repeat = 0; repeat < 30; ++repeat) {
+    table.points.push_back({3.0});
+    table.runs.push_back(noise[3]);
+  }
+  EXPECT_EQ(effect_of(table, objective_for({}, table)).p, once);
+  EXPECT_EQ(other_points(table), 4U);
+}
+
+// A piece of the run has a small error, which is no merit.
+TEST(FailedRunsOfTuning, AnEstimateThatLacksAPartOfTheRunHasNoScore) {
+  JobResult job;
+  job.scores = {{"success", false}, {"diverged_reason", "ends_early"}, {"ate_m", 1e-5}};
+  EXPECT_FALSE(run_score(job, "ate_m").value);
+  EXPECT_TRUE(run_score(job, "ate_m").diverged);
+  job.scores["diverged_reason"] = "error_limit";
+  EXPECT_EQ(run_score(job, "ate_m").value, 1e-5);
+  Objective counts_scores;
+  counts_scores.divergence_penalty = 0.0;
+  const std::vector<RunScore> defaults = {{std::nullopt, true}};
+  EXPECT_EQ(objective_value(counts_scores, std::vector<RunScore>{{0.3}}, defaults), 1.0)
+      << "where the defaults stopped early a whole run is not a thousand times worse";
 }
 
 TEST(FailedRunsOfTuning, CountAsDivergedAndKeepTheirReason) {
@@ -175,6 +245,19 @@ TEST(HeldOutVerdict, CountsSequencesOnWhichTheDefaultsFailed) {
   const PairedGain all = paired_gain(table, Objective(), 0);
   EXPECT_EQ(all.seeds, 8U);
   EXPECT_EQ(verdict_of(all), Verdict::kUseThem) << verdict_text(all);
+}
+
+// Whatever the objective says, as where its penalty is small or in another unit.
+TEST(HeldOutVerdict, NeverUsesValuesThatLoseRuns) {
+  ResponseTable table = falls_by(0.09);
+  Objective objective;
+  objective.divergence_penalty = 0.0;
+  EXPECT_EQ(verdict_of(paired_gain(table, objective, 0)), Verdict::kUseThem);
+  table.runs[0][2].diverged = true;
+  const PairedGain gain = paired_gain(table, objective, 0);
+  EXPECT_EQ(verdict_of(gain), Verdict::kDoNotUse);
+  EXPECT_NE(verdict_text(gain).find("more held-out runs diverge"), std::string::npos);
+  EXPECT_EQ(front_verdict_of(std::vector{gain}), FrontVerdict::kWorse);
 }
 
 // The rule of `aims study compare`: 5 %, and 1 cm of an ATE.

@@ -81,7 +81,9 @@ TEST(SweepReport, SaysTheBest) {
 
 TEST(SweepReport, WithoutUntunedRunsComparesPlainScores) {
   const TemporaryFolder folder;
-  const std::string text = report_of(sweep_over_eta(false), folder.path());
+  MergedSweep sweep = sweep_over_eta(false);
+  std::erase_if(sweep.jobs, [](const MergedJob& job) { return job.file["settings"][kEta] == "3"; });
+  const std::string text = report_of(sweep, folder.path());
   EXPECT_TRUE(says(text, "median of ate_yaw_m; a diverged run counts")) << text;
   EXPECT_TRUE(says(text, "the defaults have an objective of -")) << text;
 }
@@ -131,6 +133,35 @@ TEST(SweepReport, AShortTableKeepsTheDefaultsAndTheLeastObjectives) {
   ASSERT_EQ(shown.rows.size(), 3U);
   EXPECT_EQ(shown.rows[0], all.rows[0]) << "the defaults";
   EXPECT_NE(std::ranges::find(shown.rows, *best), shown.rows.end());
+}
+
+TEST(SweepReport, NamesSequencesOfWhichNoJobIsDone) {
+  MergedSweep sweep = sweep_over_eta(true);
+  EXPECT_EQ(unstarted_text(sweep), "");
+  for (MergedJob& job : sweep.jobs) {
+    if (job.listed.seed == "4") job.file = Json();
+  }
+  EXPECT_EQ(unstarted_text(sweep),
+            "1 of 4 sequences are left out, since no job of them is done: corridor seed 4");
+}
+
+// A tuning has the defaults among its points and runs them as such.
+TEST(SweepReport, ADefaultOfZeroHasNoDistanceOnALogarithmicRange) {
+  MergedSweep sweep = sweep_over_eta(true);
+  sweep.plans = {"params: [\"degeneracy.eta=log(0.5,6,12)\"]\nscenarios: [corridor]\n"
+                 "set: [estimators.aims.degeneracy.eta=0]\n"};
+  const TemporaryFolder folder;
+  const std::string text = report_of(sweep, folder.path());
+  EXPECT_FALSE(says(text, "inf")) << text;
+  EXPECT_FALSE(says(text, "nan")) << text;
+}
+
+TEST(SweepReport, FindsTheDefaultsAmongThePoints) {
+  const auto responses = sweep_responses(sweep_over_eta(false), "ate_yaw_m");
+  ASSERT_TRUE(responses);
+  const ResponseTable& table = responses->front().table;
+  ASSERT_EQ(table.default_runs.size(), 4U);
+  EXPECT_EQ(table.default_runs[0].value, 0.1 * (1.0 + 2.0));
 }
 
 TEST(SweepReport, KeepsTheLabelOfAnEstimator) {

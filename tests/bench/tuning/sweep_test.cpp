@@ -255,6 +255,41 @@ TEST_F(Sweep, OfAnotherPlanIsNotMerged) {
   EXPECT_FALSE(merge_sweeps(std::vector{b, c}));
 }
 
+TEST_F(Sweep, OfAnotherVersionOfAScenarioOrAClassIsNotMerged) {
+  const auto folder_of = [&](const char* name, const char* seeds, const char* version) {
+    const fs::path folder = folder_.path() / name;
+    fs::create_directories(folder);
+    std::vector<Job> jobs = jobs_;
+    for (Job& job : jobs) {
+      job.id += version + std::string(seeds);
+      job.version = version;
+    }
+    const std::string plan = "params: [\"degeneracy.eta=0:6:3\"]\nseeds: " + std::string(seeds);
+    EXPECT_TRUE(JobStore(folder).enter(jobs, plan + "\n", false));
+    return folder;
+  };
+  const fs::path a = folder_of("a", "1-2", "v1");
+  const fs::path b = folder_of("b", "3-4", "v1");
+  const fs::path c = folder_of("c", "3-4", "v2");
+  EXPECT_TRUE(merge_sweeps(std::vector{a, b}));
+  const auto refused = merge_sweeps(std::vector{a, c});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find(a.string() + " and " + c.string() + " have two versions"),
+            std::string::npos)
+      << refused.error().message;
+}
+
+TEST_F(Sweep, TheObjectiveOfTheLastMergeIsKeptForThePage) {
+  EXPECT_EQ(objective_in(folder_.path())->score, Objective{}.score);
+  Objective objective;
+  objective.score = "m_list_percent.all";
+  objective.divergence_penalty = 0.0;
+  ASSERT_TRUE(write_objective(objective, folder_.path()));
+  const auto kept = objective_in(folder_.path());
+  ASSERT_TRUE(kept) << kept.error().message;
+  EXPECT_EQ(text_of(*kept), text_of(objective));
+}
+
 TEST_F(Sweep, ADatabaseThatCannotBeWrittenIsNamed) {
   const fs::path file = folder_.path() / "nowhere" / "sweep.sqlite";
   const auto written = write_sqlite({}, file);

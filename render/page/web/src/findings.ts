@@ -25,6 +25,8 @@ export interface Finding {
   returns: number | null;
   /** What is missing of it where it fails by that: "has no poses for 12 s, from 34 s on". */
   missing?: string | null;
+  /** Of several runs, on how many it fails: "2 of 3 seeds". */
+  fails?: string | null;
   /** Healthy all along, as it says itself. */
   healthy: boolean;
 }
@@ -104,6 +106,8 @@ function lossText(each: Finding, route: Route): string {
   if (loss && loss.most > 2 * route.length)
     return `${each.name} is lost from ${loss.from.toFixed(0)} s on${place(each.returns)}`;
   if (!each.success && each.aside && (percent ?? 0) <= kSuccess) return asideText(each, unnoticed);
+  if (!each.success && each.fails && percent !== null && percent <= kSuccess)
+    return `${each.name} fails on ${each.fails}, its length ${percentText(percent)} off in the median`;
   if (percent !== null && (!loss || loss.early)) {
     const side = signed === null ? "off" : signed < 0 ? "short" : "too long";
     const when = each.worst === null ? "throughout" : "in the median";
@@ -143,11 +147,11 @@ export function finding(list: Finding[], route: Route): string {
   const limit = Math.max(kAlike, kFactor * good[0]!.percent!);
   const best = good.filter((each) => each.percent! <= limit);
   const rest = good.length > best.length
-    ? `, ${listed(good.slice(best.length, best.length + 3).map((each) => `${each.name} within ${percentText(each.percent!)}`))}` : "";
+    ? `, ${listed(good.slice(best.length, best.length + 3).map((each) => `${each.name} within ${mostText([each])}`))}` : "";
   const names = listed(best.map((each) => each.name));
   if (bad.length === 0 && best.length === list.length && list.length > 1 && worstAlike(best)) {
     const runs = best[0]!.worst === null ? "this run does" : "these runs do";
-    return `${names} ${list.length === 2 ? "both" : "all"} keep ${what} within ${mostText(best)}: ${runs} not separate them.`;
+    return `${names} ${list.length === 2 ? "both" : "all"} keep ${what} within ${mostText(best)}: ${runs} not separate them by it.`;
   }
   return `${names} keep${best.length === 1 ? "s" : ""} ${what} within ${mostText(best)}${rest}${loss}.`;
 }

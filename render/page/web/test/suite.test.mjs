@@ -81,6 +81,18 @@ test("one that failed to run on a seed is best of nothing, and the headline says
   assert.deepEqual(troubles, []);
 });
 
+test("one that ended early on a seed is best of nothing, and keeps no length in the headline", { skip }, async () => {
+  const data = suite({ names: ["one"] });
+  const [one] = data.suite.scenarios;
+  data.runs.find((run) => run.seed === 2).estimators.a = { success: false, diverged_at_s: 3, diverged_reason: "ends_early", ate_m: 1e-5 };
+  one.estimators.a = { ...one.estimators.a, successes: 2, success_rate: 2 / 3 };
+  const { page, troubles } = await pages.show(data);
+  assert.match(await page.innerText("[data-verdict]"), /a ends early on 1 of 3 seeds/);
+  assert.equal(await page.locator('#seeds tr[data-row="a"] .best').count(), 0);
+  assert.equal(await page.locator('#matrix td[data-estimator="a"].best').count(), 0);
+  assert.deepEqual(troubles, []);
+});
+
 test("each run has a small chart, the worst first, that links to its page", { skip }, async () => {
   const data = suite();
   const { page, troubles } = await pages.show(data);

@@ -87,5 +87,5 @@ export function compareSection(data: SuitePayload): HTMLElement | null {
       choice("Score", [{ value: "", label: "all" },
         ...scores.map((each) => ({ value: each, label: titleOf(data.headline, each).title }))], "",
       (value) => { score = value; draw(); })),
-    place, only(`Fails in ${compare.after} alone`, compare.fails_now ?? []), only(`Fails in ${compare.before} alone`, compare.fails_no_more ?? []), only(`Only in ${compare.before}`, compare.only_before), only(`Only in ${compare.after}`, compare.only_after));
+    place, only(`Fails in ${compare.after} alone`, compare.fails_now ?? []), only(`Fails in ${compare.before} alone`, compare.fails_no_more ?? []), only("Success alone compared: an estimate lacks a part of the run", compare.partial ?? []), only(`Only in ${compare.before}`, compare.only_before), only(`Only in ${compare.after}`, compare.only_after));
 }

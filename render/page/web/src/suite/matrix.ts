@@ -7,7 +7,7 @@ import { formatNumber, isNumber, kNone } from "../format";
 import { failureCount } from "../outcome";
 import { details } from "./details";
 import {
-  estimatorsOf, firstScore, kSuccessRate, reasonsOf, runsOf, scoreKeysOf, summaryOf, titleOf, valueOf,
+  estimatorsOf, firstScore, isWhole, kSuccessRate, reasonsOf, runsOf, scoreKeysOf, summaryOf, titleOf, valueOf,
   type SuitePayload, type SuiteScenario,
 } from "./model";
 
@@ -91,10 +91,15 @@ function levelText(row: SuiteScenario): string | null {
   return row.family && isNumber(row.level) ? `${row.family} ${row.level} ${row.level_unit ?? ""}` : null;
 }
 
-/** Text of the best value of a row, of those that failed on no run: the smallest, for the success rate the largest. */
+/** Whether its value is of all that those of others are; a rate of success counts every run. */
+function isComparable(data: SuitePayload, scenario: string, estimator: string, view: View): boolean {
+  return view.score === kSuccessRate || isWhole(data, scenario, estimator);
+}
+
+/** Text of the best value of a row, of those whose estimates are whole: the smallest, for the success rate the largest. */
 function bestOf(data: SuitePayload, row: SuiteScenario, estimators: string[], view: View): string | null {
-  const whole = estimators.filter((name) => !reasonsOf(data, row.name, name).includes("failed"));
-  const values = numbers([row], whole, view);
+  const comparable = estimators.filter((name) => isComparable(data, row.name, name, view));
+  const values = numbers([row], comparable, view);
   if (values.length < 2 || view.score.includes("signed")) return null;
   return formatNumber(view.score === kSuccessRate ? Math.max(...values) : Math.min(...values));
 }
@@ -137,7 +142,7 @@ function cell({ data, row, view, shade, best, open }: Cells, estimator: string):
     interval ? h("span", { class: "interval" }, interval) : null,
     diverged > 0 || summary.runs > 1 ? h("span", { class: "runs" }, of) : null);
   return h("td", {
-    class: ["matrix-cell", diverged > 0 ? "diverged" : "", text === best && !reasonsOf(data, row.name, estimator).includes("failed") ? "best" : ""].join(" ").trim(),
+    class: ["matrix-cell", diverged > 0 ? "diverged" : "", text === best && isComparable(data, row.name, estimator, view) ? "best" : ""].join(" ").trim(),
     style: `--shade: ${view.score === kSuccessRate ? 100 - amount : amount}%`,
     "data-value": isNumber(value) ? value : null, "data-estimator": estimator,
   }, button);

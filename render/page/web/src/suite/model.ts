@@ -3,6 +3,7 @@
 import type { Maybe, Numbers, PagePayload, Picture } from "../contract";
 import { own } from "../dom";
 import { isNumber } from "../format";
+import { reasonName } from "../outcome";
 
 export interface ScoreSummary {
   median: Maybe;
@@ -159,6 +160,7 @@ export interface Comparison {
   /** Runs on which an estimator fails on one side alone; older results do not say. */
   fails_now?: string[];
   fails_no_more?: string[];
+  partial?: string[];
   only_before: string[];
   only_after: string[];
 }
@@ -303,6 +305,11 @@ export function reasonsOf(data: SuitePayload, scenario: string, estimator: strin
     if (!found && failedOn(data, scenario, run.seed).includes(estimator)) return ["failed"];
     return found?.["success"] === false ? [found["diverged_reason"]] : [];
   });
+}
+
+/** Whether none of its estimates leaves a part of a run out, so that its scores are of all that those of others are. */
+export function isWhole(data: SuitePayload, scenario: string, estimator: string): boolean {
+  return reasonsOf(data, scenario, estimator).every((each) => reasonName(each) === "diverged");
 }
 
 /** Estimators that failed to run on a seed of a scenario. */

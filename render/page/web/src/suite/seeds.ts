@@ -9,7 +9,7 @@ import { formatNumber, isNumber, kNone } from "../format";
 import { failureCount, reasonName } from "../outcome";
 import { sortableTable, type Column } from "../table";
 import {
-  estimatorsOf, firstScore, reasonsOf, runsOf, styleOf, summaryOf, titleOf,
+  estimatorsOf, firstScore, isWhole, reasonsOf, runsOf, styleOf, summaryOf, titleOf,
   type EstimatorSummary, type Headline, type SuitePayload, type SuiteScenario,
 } from "./model";
 
@@ -22,10 +22,10 @@ interface Row {
 }
 
 /** Median and worst; marked where no run succeeded, since such a median says nothing. */
-function scoreColumn(score: Headline): Column<Row> {
+function scoreColumn(data: SuitePayload, scenario: string, score: Headline): Column<Row> {
   const of = (row: Row) => own<{ median: unknown; worst: unknown }>(row.summary.scores, score.key);
   return {
-    title: score.title, unit: score.unit, best: "low", eligible: (row) => row.summary.successes > 0 && row.failed === 0,
+    title: score.title, unit: score.unit, best: "low", eligible: (row) => row.summary.successes > 0 && row.failed === 0 && isWhole(data, scenario, row.name),
     hint: "median over seeds (worst)",
     value: (row) => {
       const median = of(row)?.median;
@@ -54,19 +54,21 @@ function reasonText(data: SuitePayload, scenario: string, { name, summary }: Row
 }
 
 function table(data: SuitePayload, scenario: SuiteScenario): HTMLElement {
-  const failures = (data.suite.failures ?? []).filter((each) => each.scenario === scenario.name && each.estimator);
+  const invalid = new Set(runsOf(data, scenario.name).filter((run) => run.invalid).map((run) => run.seed));
+  const failures = (data.suite.failures ?? [])
+    .filter((each) => each.scenario === scenario.name && each.estimator && !invalid.has(each.seed));
   const failed = failures.flatMap((each) => each.estimator!.split(", "));
   const names = new Set([...Object.keys(scenario.estimators), ...failed]);
   const rows = [...names].map((name): Row => ({
     name, summary: summaryOf(scenario, name) ?? { runs: 0, successes: 0, success_rate: null, scores: {} },
-    failed: failed.filter((each) => each === name).length, seeds: scenario.seeds.length,
+    failed: failed.filter((each) => each === name).length, seeds: scenario.seeds.length - invalid.size,
   }));
   const columns: Column<Row>[] = [
     {
       title: "estimator", value: (row) => row.name,
       show: (row) => h("span", { class: "estimator-name", title: row.name }, lineSample(styleOf(data, row.name)), h("bdi", {}, row.name)),
     },
-    ...data.headline.map(scoreColumn),
+    ...data.headline.map((score) => scoreColumn(data, scenario.name, score)),
     {
       title: "within 5 %", value: (row) => row.summary.successes,
       hint: "95 % interval of the rate (Wilson)", show: (row) => successText(row) + reasonText(data, scenario.name, row),
@@ -77,7 +79,7 @@ function table(data: SuitePayload, scenario: SuiteScenario): HTMLElement {
     },
   ];
   return sortableTable(rows, columns.filter((column, i) => i === 0 || rows.some((row) => column.value(row) !== null)), {
-    caption: "Median over seeds (worst). ✕: no run succeeded. Bold: best of those with a success that failed on no seed. Within 5 % (success), 1 %: position error of the distance travelled so far; interval: 95 %.", rowName: (row) => row.name,
+    caption: "Median over seeds (worst). ✕: no run succeeded. Bold: best of those with a success whose estimates lack no part of a run. Within 5 % (success), 1 %: position error of the distance travelled so far; interval: 95 %.", rowName: (row) => row.name,
   });
 }
 
@@ -94,30 +96,39 @@ function boxes(data: SuitePayload, scenario: SuiteScenario, score: string): HTML
   return boxPlot(groups, { label: `${title} of each estimator over the seeds of ${scenario.name}`, xLabel: `${title}${unit ? ` [${unit}]` : ""}` });
 }
 
-/** "has a gap on 4 of 4 seeds", where most runs fail by poses that are missing; null: they do not. */
+const kVerbs: Record<string, string> = {
+  failed: "failed to run", gap: "has a gap", starts_late: "starts late", ends_early: "ends early", no_poses: "has no poses",
+};
+
+/** "has a gap on 4 of 4 seeds", "failed to run on 1 and has a gap on 2 of 4 seeds"; null where estimates are whole. */
 function missingText(data: SuitePayload, scenario: string, name: string, runs: number): string | null {
-  const verbs: Record<string, string> = { gap: "has a gap", starts_late: "starts late", ends_early: "ends early", no_poses: "has no poses" };
-  const reasons = reasonsOf(data, scenario, name);
-  const failed = reasons.filter((each) => each === "failed").length;
-  if (failed > 0) return `failed to run on ${failed} of ${runs} seeds`;
-  for (const [reason, verb] of Object.entries(verbs)) {
-    const count = reasons.filter((each) => each === reason).length;
-    if (2 * count >= runs && count > 0) return `${verb} on ${count} of ${runs} seeds`;
-  }
-  return null;
+  const reasons = reasonsOf(data, scenario, name).filter((each) => reasonName(each) !== "diverged").map((each) => kVerbs[String(each)] ?? "is incomplete");
+  const texts = [...new Set(reasons)].map((verb) => `${verb} on ${reasons.filter((each) => each === verb).length}`);
+  return texts.length > 0 ? `${texts.join(" and ")} of ${runs} seeds` : null;
+}
+
+type ScoreOf = (key: string, statistic: "median" | "worst") => number | null;
+
+/** The direction that fails, where by the medians it is not the one along the way; its largest error on any seed. */
+function asideOf(number: ScoreOf): Finding["aside"] {
+  const rmse = (axis: string) => number(`drift_m.rmse.${axis}`, "median") ?? 0;
+  const [along, across, up] = [rmse("longitudinal"), rmse("lateral"), rmse("vertical")];
+  if (up > across && up > along) return { direction: "height", most: Math.max(up, number("max_error_z_m", "worst") ?? 0) };
+  return across > along ? { direction: "sideways", most: number("drift_m.max.lateral", "worst") ?? across } : null;
 }
 
 function findingOf(data: SuitePayload, scenario: SuiteScenario, name: string): Finding {
   const summary = summaryOf(scenario, name)!;
-  const ranOnAll = !reasonsOf(data, scenario.name, name).includes("failed");
-  const number = (key: string, statistic: "median" | "worst") => {
+  const number: ScoreOf = (key, statistic) => {
     const value = own<Record<string, unknown>>(summary.scores, key)?.[statistic];
     return isNumber(value) ? value : null;
   };
+  const failures = summary.runs - summary.successes;
   return {
-    name, success: ranOnAll && summary.successes > summary.runs / 2, percent: number("m_list_percent.all", "median"),
+    name, success: isWhole(data, scenario.name, name) && summary.successes > summary.runs / 2, percent: number("m_list_percent.all", "median"),
     worst: summary.runs > 1 ? number("m_list_percent.all", "worst") : null, signed: null,
-    ate: number("ate_yaw_m", "median"), loss: null, aside: null, returns: null, healthy: false,
+    ate: number("ate_yaw_m", "median"), loss: null, aside: asideOf(number), returns: null, healthy: false,
+    fails: failures > 0 ? `${failures} of ${summary.runs} seeds` : null,
     missing: missingText(data, scenario.name, name, summary.runs),
   };
 }

@@ -103,6 +103,8 @@ export interface Analysis {
   effect?: string;
   why_no_best?: string;
   held_out: HeldOut | null;
+  /** Whether points differ by more than seeds scatter. */
+  resolved: boolean;
   sensitivity: Sensitivity | null;
   why_no_sensitivity?: string;
   curves: Slice[];
@@ -129,6 +131,8 @@ export interface TuningPayload extends PagePayload {
   source: "sweep" | "tune";
   plan: string;
   jobs: Record<string, number>;
+  /** What the held-out sequences say of a Pareto front; null: of one objective. */
+  front?: string | null;
   held_out_jobs: Record<string, number>;
   /** That held-out results were seen before the last ones. */
   looked?: string | null;

@@ -16,19 +16,36 @@ function bracket(interval: [number, number] | null, scale = 1, unit = ""): strin
 }
 
 /** The values found and, of a tuning, what the held-out sequences say of them. */
-function verdict({ text: values, is_default: keeps }: Best, analysis: Analysis, tuned: boolean): HTMLElement {
+function verdict({ text: values, is_default: keeps }: Best, analysis: Analysis, { tuned, front }: Search): HTMLElement {
+  if (front) {
+    const name = front.startsWith("use ") ? "use" : front.startsWith("undecided") ? "undecided" : "do-not-use";
+    return h("div", {},
+      h("p", { class: `verdict ${name}`, "data-verdict": name.replaceAll("-", " ") }, h("strong", {}, "Pareto front."), ` Verdict: ${front}.`),
+      h("p", {}, keeps ? `In this objective alone the defaults are the best: ${values}.` : `Best in this objective alone: ${values}.`));
+  }
   if (keeps) {
     return h("p", { class: "verdict do-not-use", "data-verdict": "do not use" },
       h("strong", {}, "Keep the defaults"), `: ${values}.`);
   }
-  if (!tuned) return h("p", {}, h("strong", {}, `Best values: ${values}.`));
+  if (!tuned) {
+    return h("p", { "data-resolved": String(analysis.resolved) },
+      h("strong", {}, analysis.resolved ? `Best values: ${values}.` : `Least objective, not resolved: ${values}.`));
+  }
   const held = analysis.held_out ?? { verdict: "undecided", text: "not validated: these values were not run on the held-out sequences" };
   return h("p", { class: `verdict ${held.verdict.replaceAll(" ", "-")}`, "data-verdict": held.verdict },
     h("strong", {}, `Tuned values: ${values}.`), ` Verdict: ${held.text}.`);
 }
 
-/** What the best point gains, in words. `tuned`: by an optimizer, with sequences held out. */
-export function outcome(analysis: Analysis, tuned: boolean): HTMLElement {
+/** How points were found. */
+export interface Search {
+  /** By an optimizer, with sequences held out. */
+  tuned: boolean;
+  /** The verdict on a Pareto front; null: of one objective. */
+  front: string | null;
+}
+
+/** What the best point gains, in words. */
+export function outcome(analysis: Analysis, search: Search): HTMLElement {
   const { best } = analysis;
   if (!best) return h("p", {}, `No best point: ${analysis.why_no_best ?? "no point is complete yet"}.`);
   const gain = isNumber(best.gain)
@@ -38,7 +55,7 @@ export function outcome(analysis: Analysis, tuned: boolean): HTMLElement {
     : " The defaults were not run on every sequence, so that nothing is compared with them.";
   const sure = analysis.seeds < 2 ? "One seed: no intervals."
     : `Intervals: 95 % bootstraps over ${analysis.seeds} seeds${analysis.seeds < 10 ? ", too narrow for so few seeds" : ""}.`;
-  return h("div", {}, verdict(best, analysis, tuned),
+  return h("div", {}, verdict(best, analysis, search),
     h("p", {}, `Objective: ${analysis.objective}. ${best.is_default ? "The defaults have an objective of "
       : `The best of ${analysis.points} points has an objective of `}`,
       h("b", { "data-best": best.objective }, formatNumber(best.objective)),
