@@ -54,14 +54,16 @@ std::string reason_text(const std::string& reason, const Failed& failed) {
   return text + " s";
 }
 
-/// The failures of an estimator by their reasons; `runs`: how many valid ones it has.
+/// The failures of an estimator by their reasons, but for errors and crashes, which are listed on
+/// their own; `runs`: how many valid ones it has, with those.
 std::map<std::string, Failed> failures_of(std::span<const RunRecord> records,
                                           const std::string& estimator, std::size_t& runs) {
   std::map<std::string, Failed> failures;
   for (const RunRecord& run : records) {
     const Json& scores = estimator_in(run, estimator);
-    if (!is_valid_run(run) || scores.is_null()) continue;
+    if (!is_valid_run(run) || (scores.is_null() && !failed_in(run, estimator))) continue;
     ++runs;
+    if (scores.is_null()) continue;
     const std::string reason = value_in(scores, "diverged_reason", "");
     if (value_in(scores, "success", false) || reason.empty()) continue;
     Failed& failed = failures[reason];

@@ -247,12 +247,12 @@ std::string score_legend(std::span<const RunRecord> runs, const ScoreConfig& sco
         "runs, with the 95 % interval of the rate.\n";
   }
   if (estimators_in(runs).size() > 1) {
-    text += "A star: best of those that succeeded, of which no run lacks a part of the estimate.\n";
+    text += "A star: best of those with a success whose estimates cover every run.\n";
   }
   if (std::ranges::any_of(estimators_in(runs), [&](const std::string& name) {
         return !is_comparable(runs, {name, ""});
       })) {
-    text += "part: over what there is; of a run the estimate lacks a part.\n";
+    text += "part: over the parts of the runs that have poses alone.\n";
   }
   return text;
 }

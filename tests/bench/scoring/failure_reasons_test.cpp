@@ -25,6 +25,14 @@ TEST(FailureReasons, SeveralRunsNameEachReasonAndItsTimes) {
                 "mine on 2 of 3 seeds: gap: no poses for too long, at 10.0 to 12.5 s"}));
 }
 
+TEST(FailureReasons, RunsThatFailedByAnErrorAreOfTheRunsThatThereAre) {
+  std::vector<RunRecord> runs = {run_of(1, "gap", 11.0), run_of(2, "gap", 13.5)};
+  runs[1].scores["estimators"].erase("mine");
+  runs[1].scores["failures"] = {{{"estimator", "mine"}, {"message", "boom"}}};
+  EXPECT_EQ(failure_lines(runs),
+            std::vector<std::string>{"mine on 1 of 2 seeds: gap: no poses for too long, at 10.0 s"});
+}
+
 TEST(FailureReasons, ASingleRunNamesOnlyWhatItsTableLacks) {
   const std::vector<RunRecord> late = {run_of(1, "starts_late", 1.0)};
   EXPECT_EQ(failure_lines(late),
