@@ -121,9 +121,11 @@ std::string best_markdown(const ResponseTable& table, const Objective& objective
                   figure_text(best.objective, best.objective_interval), objective.score,
                   figure_text(median(scores_of(runs_at(table, best.point), cases_of(table, "")))));
   if (best.is_default()) return fmt::format("The defaults have {}.\n", figures);
-  return fmt::format(
-      "The best of {} points besides the defaults has {}; these have an objective of {}.\n",
-      other_points(table), figures, figure_text(best.defaults));
+  const std::string of_defaults =
+      best.defaults ? fmt::format("these have an objective of {}", figure_text(best.defaults))
+                    : "these were not run on every sequence";
+  return fmt::format("The best of {} points besides the defaults has {}; {}.\n",
+                     other_points(table), figures, of_defaults);
 }
 
 /// What the best point gains over the defaults.

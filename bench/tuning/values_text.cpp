@@ -24,9 +24,10 @@ std::string edge_text(const ParameterRange& range, double value) {
   const Range allowed = allowed_values(range);
   const bool final = lower ? range.low <= allowed.min : range.high >= allowed.max;
   const bool at = lower ? fraction <= kAtEdge : fraction >= 1.0 - kAtEdge;
-  const char* beyond = !final  ? "the optimum may lie outside"
-                       : lower ? "values below it are not allowed"
-                               : "values above it are not allowed";
+  const std::string beyond =
+      final ? fmt::format("values {} {} are not allowed", lower ? "below" : "above",
+                          lower ? range.low : range.high)
+            : "the optimum may lie outside";
   return fmt::format(" ({} the {} edge of its range {} to {}: {})", at ? "at" : "near",
                      lower ? "lower" : "upper", range.low, range.high, beyond);
 }

@@ -430,15 +430,18 @@ TEST(TuneReport, SaysWhichValueLiesAtAnEdgeOfItsRange) {
   };
   EXPECT_EQ(text("degeneracy.eta=0:20", 1.25), "degeneracy.eta 1.25 instead of 3");
   EXPECT_EQ(text("degeneracy.eta=0:20", 3.0), "degeneracy.eta 3 as by default");
-  EXPECT_EQ(text("degeneracy.eta=1:20", 1.13),
-            "degeneracy.eta 1.13 instead of 3 (at the lower edge of its range 1 to 20: the optimum "
-            "may lie outside)");
-  EXPECT_EQ(text("degeneracy.eta=0:20", 19.9),
-            "degeneracy.eta 19.9 instead of 3 (at the upper edge of its range 0 to 20: the optimum "
-            "may lie outside)");
-  EXPECT_EQ(text("degeneracy.eta=0:20", 0.13),
-            "degeneracy.eta 0.13 instead of 3 (at the lower edge of its range 0 to 20: no smaller "
-            "value is allowed)");
+  EXPECT_EQ(
+      text("degeneracy.eta=1:20", 1.13),
+      "degeneracy.eta 1.13 instead of 3 (near the lower edge of its range 1 to 20: the optimum "
+      "may lie outside)");
+  EXPECT_EQ(
+      text("degeneracy.eta=0:20", 19.9),
+      "degeneracy.eta 19.9 instead of 3 (near the upper edge of its range 0 to 20: the optimum "
+      "may lie outside)");
+  EXPECT_EQ(
+      text("degeneracy.eta=0:20", 0.13),
+      "degeneracy.eta 0.13 instead of 3 (near the lower edge of its range 0 to 20: values below 0 "
+      "are not allowed)");
   EXPECT_EQ(text("links.lidar.loss=0.1:0.5", 0.1),
             "links.lidar.loss 0.1 instead of 3 (at the lower edge of its range 0.1 to 0.5: the "
             "optimum may lie outside)");
