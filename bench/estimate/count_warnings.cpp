@@ -142,7 +142,7 @@ void warn_of_ranges(EstimateResult& result) {
     const auto share_of = [&](const char* what) {
       const auto found = each.result.counts.find(what);
       const int count = found == each.result.counts.end() ? 0 : found->second;
-      return result.clouds > 0 ? static_cast<double>(count) / result.clouds : 0.0;
+      return count / std::max(1.0, static_cast<double>(each.totals.scans));
     };
     const auto warn = [&](double share, std::string_view where, std::string_view cause) {
       if (share <= kMany) return;
