@@ -123,6 +123,12 @@ std::string line_text(std::string_view message) {
                      text.substr(tail));
 }
 
+std::string decimal_text(double value, int digits) {
+  std::string text = fmt::format("{:.{}f}", value, digits);
+  const bool zero = text.find_first_not_of("-0.") == std::string::npos;
+  return zero && text.front() == '-' ? text.substr(1) : text;
+}
+
 std::string stamp_text(Time stamp) {
   const bool negative = stamp < 0;
   // Negated as unsigned, so that the smallest integer has a magnitude too.

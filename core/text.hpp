@@ -23,6 +23,9 @@ std::string name_text(std::string_view bytes);
 /// and of a message of more than 4000 bytes the middle is left out.
 std::string line_text(std::string_view message);
 
+/// The number with so many decimals; what rounds to zero has no sign.
+std::string decimal_text(double value, int digits);
+
 /// Seconds with nine decimals, which keep the nanoseconds exactly.
 std::string stamp_text(Time stamp);
 

@@ -4,10 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "recordings/legs/leg_check.hpp"
+#include "recordings/stream/too_short.hpp"
 
 namespace aims {
 namespace {
@@ -95,7 +99,8 @@ void warn_of_legs(EstimateResult& result) {
 
 /// Likewise of the feet.
 void warn_of_feet(EstimateResult& result) {
-  constexpr double kMost = 0.5;  // of the samples; a trot has none without contact
+  constexpr double kMost = 0.5;       // of the samples; a trot has none without contact
+  constexpr double kFewOther = 0.05;  // likewise
   const double samples = result.recorded_s * result.setup.leg_rate_hz.value_or(0.0);
   const auto warn = [&result](std::string reason, std::string text) {
     result.setup.warnings.push_back({std::move(reason), std::move(text), WarnedSensor::kLegs});
@@ -112,6 +117,12 @@ void warn_of_feet(EstimateResult& result) {
                      "serves there (contact_threshold, contact_detection)",
                      none, samples));
   }
+  if (const int other = count_of(result, "foot_loads_of_other_sign"); other > kFewOther * samples) {
+    warn("loads of the feet change their sign",
+         fmt::format("{}: in {} messages a foot has a load of the opposite sign, as large as in "
+                     "contact: taken as no contact; a sensor with an offset?",
+                     result.setup.topics.contacts, other));
+  }
   const bool named =
       std::ranges::count(result.setup.warnings, kFeetAgainstGyro, &ReadingWarning::reason) > 0;
   if (const int apart = count_of(result, "feet_in_contact_disagree");
@@ -121,6 +132,32 @@ void warn_of_feet(EstimateResult& result) {
                      "the order of the joints and of the feet right (joint_names, foot_names), "
                      "and the threshold of contact?",
                      apart, samples));
+  }
+}
+
+/// Warns of scans most of whose returns an estimator leaves out by their ranges.
+void warn_of_ranges(EstimateResult& result) {
+  constexpr double kMany = 0.5;  // of the scans
+  for (const EstimatorOutcome& each : result.estimators) {
+    const auto share_of = [&](const char* what) {
+      const auto found = each.result.counts.find(what);
+      const int count = found == each.result.counts.end() ? 0 : found->second;
+      return count / std::max(1.0, static_cast<double>(each.totals.scans));
+    };
+    const auto warn = [&](double share, std::string_view where, std::string_view cause) {
+      if (share <= kMany) return;
+      result.setup.warnings.push_back(
+          {"most returns are out of range",
+           fmt::format("{}: in {:.0f} % of the scans more than half of the returns are {} and left "
+                       "out: {}",
+                       each.name, 1e2 * share, where, cause),
+           WarnedSensor::kLidar});
+    };
+    warn(share_of("lidar.mostly_too_far"), "farther than lidar.max_range",
+         "points in cm or mm (recording.point_unit), or lidar.max_range is too small");
+    warn(share_of("lidar.mostly_too_near"), "nearer than lidar.min_range",
+         "points in another unit than metres, a LiDAR that sees the robot itself, or "
+         "lidar.min_range is too large");
   }
 }
 
@@ -186,6 +223,18 @@ void warn_of_counts(EstimateResult& result) {
   warn_of_legs(result);
   warn_of_feet(result);
   warn_of_clouds(result);
+  warn_of_ranges(result);
+}
+
+std::string warn_of_length(EstimateResult& result) {
+  const std::string& lidar = result.setup.topics.lidar;
+  const bool has_lidar = !lidar.empty() && lidar != "none";
+  const auto text = too_short_text(
+      has_lidar ? std::optional(static_cast<std::uint64_t>(result.clouds)) : std::nullopt,
+      result.recorded_s);
+  if (!text) return {};
+  result.setup.warnings.insert(result.setup.warnings.begin(), {"too short", *text});
+  return *text;
 }
 
 }  // namespace aims

@@ -18,6 +18,7 @@
 #include "bench/estimate/scoring_input.hpp"
 #include "bench/estimate/stream.hpp"
 #include "bench/estimate/way_check.hpp"
+#include "bench/scoring/score_hints.hpp"
 #include "bench/scoring/score_record.hpp"
 #include "core/files/tum.hpp"
 #include "core/files/yaml_config.hpp"
@@ -59,6 +60,15 @@ Result<std::vector<ShownScan>> scans_to_show(const EstimateResult& result, const
   return kept.shown(*poses, result.setup.rig.T_body_lidar);
 }
 
+/// What the scores tell of a truth that stopped before the robot did.
+void warn_of_frozen_truth(const Result<TrajectoryScores>& scores, RecordingSetup& setup) {
+  if (!scores) return;
+  std::vector<const Trajectory*> estimates;
+  for (const ScoredEstimate& each : scores->estimates) estimates.push_back(&each.given.trajectory);
+  const auto hint = frozen_truth_hint(scores->truth.trajectory, estimates);
+  if (hint) setup.warnings.push_back({"truth freezes", "truth: " + *hint});
+}
+
 /// Scores the trajectories when the recording holds the truth; what keeps it from that is noted.
 Result<void> score_against_truth(const EstimateConfig& config, EstimateResult& result) {
   auto truth = trajectory_of(result, result.truth, kTruthFile);
@@ -96,6 +106,7 @@ Result<void> score_against_truth(const EstimateConfig& config, EstimateResult& r
         {"truth of positions alone", fmt::format("{}", fmt::join(input.notes, "; "))});
   }
   auto scores = score_trajectories(std::move(input));
+  warn_of_frozen_truth(scores, result.setup);
   if (scores) {
     result.scores = std::move(*scores);
     withdraw_successes(result);
@@ -179,7 +190,9 @@ std::vector<std::string> reasons_of(const EstimateConfig& config, const Recordin
 void warn_in_health(const EstimateConfig& config, EstimateResult& result) {
   warn_of_counts(result);
   std::ranges::copy(result.by_lidar, std::back_inserter(result.setup.warnings));
+  const std::string too_short = warn_of_length(result);
   for (EstimatorOutcome& each : result.estimators) {
+    each.totals.health.too_short = too_short;
     const auto reasons = reasons_of(config, result.setup, each.name);
     if (reasons.empty()) continue;
     HealthSummary& health = each.totals.health;

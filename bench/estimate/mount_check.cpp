@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "bench/estimate/stream.hpp"
+#include "core/text.hpp"
 
 namespace aims {
 namespace {
@@ -42,8 +43,9 @@ std::string axes_text(const MountCheck& check) {
   for (std::size_t i = 0; i < 3; ++i) {
     const AxisCheck& axis = check.axes[i];
     axes.push_back(axis.observable()
-                       ? fmt::format("{}: {} rotations, scale {:.2f}, correlation {:.2f}", "xyz"[i],
-                                     axis.intervals, axis.scale, axis.correlation)
+                       ? fmt::format("{}: {} rotations, scale {}, correlation {}", "xyz"[i],
+                                     axis.intervals, decimal_text(axis.scale, 2),
+                                     decimal_text(axis.correlation, 2))
                        : fmt::format("{}: not checked, {} rotations", "xyz"[i], axis.intervals));
   }
   return fmt::format("gyro against LiDAR odometry, by axes of the IMU: {}", fmt::join(axes, "; "));
@@ -69,7 +71,7 @@ std::string verdict_text(const MountCheck& check) {
 std::string correction_text(const MountCheck& check, const Pose& T_imu_lidar) {
   Eigen::Quaterniond q = check.R_imu_lidar;
   q.coeffs() = (q.coeffs().array().abs() < 1e-9).select(0.0, q.coeffs());
-  const Eigen::Vector3d& t = T_imu_lidar.translation;
+  const Eigen::Vector3d t = T_imu_lidar.translation.array() + 0.0;  // no negative zeros
   return fmt::format(
       "--set recording.T_imu_lidar.quaternion_xyzw=[{:.6g},{:.6g},{:.6g},{:.6g}] "
       "--set recording.T_imu_lidar.translation=[{:.6g},{:.6g},{:.6g}]",

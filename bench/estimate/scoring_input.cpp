@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bench/estimate/bag_origin.hpp"
+#include "bench/estimate/frame_stamps.hpp"
 #include "bench/metrics/lever_arm.hpp"
 #include "bench/scoring/segment_list.hpp"
 #include "core/file_name.hpp"
@@ -17,6 +18,7 @@
 #include "core/files/number_lines.hpp"
 #include "core/files/text_file.hpp"
 #include "core/files/waypoint_times.hpp"
+#include "core/text.hpp"
 #include "recordings/median.hpp"
 #include "recordings/topics/recording_topics.hpp"
 #include "recordings/trajectories/pose_cleaning.hpp"
@@ -65,11 +67,24 @@ Result<Pose> extrinsic_of(const std::string& text) {
 /// "run/odom" of run.bag:/odom, "aims" of out/aims.tum.
 std::string name_of(const TrajectoryFile& file) { return file.file.stem().string() + file.topic; }
 
+/// The error of a recording, of a damaged one with what reads the rest: scoring does not.
+tl::unexpected<Error> with_copy(const Error& error) {
+  if (error.message.find("; --recover ") == std::string::npos) return failure(error.message);
+  return failure(error.message + " (aims convert IN --recover --out COPY; then score the copy)");
+}
+
 /// Reads a trajectory of the request, unless it is in memory.
 Result<TrajectoryFile> trajectory_of(const ScoringRequest& request, const std::string& source,
                                      const TrajectoryFileOptions& options) {
   const auto known = request.in_memory.find(source);
-  if (known == request.in_memory.end()) return read_trajectory(source, options);
+  if (known == request.in_memory.end()) {
+    auto read = read_trajectory(source, options);
+    if (!read) return with_copy(read.error());
+    if (request.times.empty() || options.stamps.empty()) return read;
+    auto stamped = stamp_frames(options.stamps.front(), source, read->trajectory, read->notes);
+    if (!stamped) return tl::unexpected(stamped.error());
+    return read;
+  }
   TrajectoryFile file;
   file.trajectory = known->second;
   file.kind = "in memory";
@@ -316,9 +331,10 @@ Result<void> apply_lever_arm(const ScoringRequest& request, ScoringInput& input)
       lever = fit_lever_arm(compared_pairs(valid, input.truth.trajectory, input.scoring), level);
       const Eigen::Vector3d& p = lever.p_body_point;
       input.notes.push_back(fmt::format(
-          "{}: lever arm fitted: [{:.3f}, {:.3f}, {:.3f}] m, {} of 3 directions observed; what it "
-          "fits is no error any more",
-          each.name, p.x(), p.y(), p.z(), lever.observed));
+          "{}: lever arm fitted: [{}, {}, {}] m, {} of 3 directions observed; what it fits is no "
+          "error any more",
+          each.name, decimal_text(p.x(), 3), decimal_text(p.y(), 3), decimal_text(p.z(), 3),
+          lever.observed));
     } else {
       lever.p_body_point = {v[0], v[1], v[2]};
     }

@@ -38,6 +38,7 @@ Json health_json(const HealthSummary& summary) {
 }
 
 std::string text_of(const HealthSummary& summary) {
+  if (!summary.too_short.empty()) return summary.too_short;
   if (!summary.judged || summary.worst == HealthState::kHealthy) return {};
   if (summary.worst == HealthState::kStarting) return "never started";
   std::vector<std::string> states;

@@ -15,8 +15,8 @@ namespace aims {
 /// The summary with the keys of its members; see docs/result-files.md.
 Json health_json(const HealthSummary& summary);
 
-/// "degraded for 3.2 s (no leg odometry 3.2 s)"; empty for an estimate that was healthy all along
-/// or not judged.
+/// "degraded for 3.2 s (no leg odometry 3.2 s)"; of too short a recording that; empty for an
+/// estimate that was healthy all along or not judged.
 std::string text_of(const HealthSummary& summary);
 
 /// Least time that an estimate is healthy while its error exceeds the limit of a success, for it to

@@ -19,6 +19,7 @@ struct HealthSummary {
   double invalid_s = 0.0;
   std::map<std::string, double> reasons;  ///< time [s] of each
   HealthRow last;                         ///< of the rows, where there is one
+  std::string too_short;                  ///< why nothing of it tells anything; empty: it does
 };
 
 /// Adds the row that follows those added before; each holds until the next.

@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 #include <vector>
 
 #include "bench/metrics/absolute_error.hpp"
 #include "bench/metrics/alignment.hpp"
+#include "core/text.hpp"
 
 namespace aims {
 namespace {
@@ -92,8 +94,8 @@ std::string turn_text(const Eigen::Quaterniond& rotation) {
     if (axis[along] < 0.0) angle = -angle;
     return fmt::format("{:.3g} deg about {}", angle, "xyz"[along]);
   }
-  return fmt::format("{:.3g} deg about [{:.2f}, {:.2f}, {:.2f}]", angle, axis.x(), axis.y(),
-                     axis.z());
+  return fmt::format("{:.3g} deg about [{}, {}, {}]", angle, decimal_text(axis.x(), 2),
+                     decimal_text(axis.y(), 2), decimal_text(axis.z(), 2));
 }
 
 /// "x y z qx qy qz qw" without negative zeros and what rounding leaves.
@@ -177,6 +179,68 @@ std::optional<std::string> stamp_unit_hint(const Trajectory& estimate, const Tra
     }
   }
   return std::nullopt;
+}
+
+bool is_frame_index(const Trajectory& poses) {
+  constexpr std::size_t kFewest = 3;
+  if (poses.size() < kFewest || poses.front().stamp > kSecond) return false;
+  Time last = -kSecond;
+  return std::ranges::all_of(poses, [&last](const StampedPose& each) {
+    const bool next = each.stamp % kSecond == 0 && each.stamp > last;
+    last = each.stamp;
+    return next && each.stamp >= 0;
+  });
+}
+
+std::optional<std::string> frame_index_hint(const Trajectory& estimate, const Trajectory& truth) {
+  constexpr double kLonger = 2.0;  // frames are more than seconds
+  constexpr double kAlike = 0.1;   // of spans of the same route, at one pose a second
+  const bool of_estimate = is_frame_index(estimate);
+  if (of_estimate == is_frame_index(truth) || truth.size() < 2) return std::nullopt;
+  const Trajectory& frames = of_estimate ? estimate : truth;
+  const Trajectory& timed = of_estimate ? truth : estimate;
+  const auto [first, last] = std::ranges::minmax_element(timed, {}, &StampedPose::stamp);
+  const bool apart = frames.back().stamp < first->stamp || frames.front().stamp > last->stamp;
+  const double ratio = span_of(frames) / span_of(timed);
+  const bool seconds = of_estimate ? std::abs(ratio - 1.0) < kAlike : ratio < kLonger;
+  if (apart ? seconds : ratio < kLonger) return std::nullopt;
+  return fmt::format(
+      "{} stamps are the whole numbers from {} to {}, likely numbers of frames: expected seconds "
+      "on the clock of the {}; --times FILE, with the stamp of each frame in a line, gives them",
+      of_estimate ? "its" : "the truth's", frames.front().stamp / kSecond,
+      frames.back().stamp / kSecond, of_estimate ? "truth" : "estimate");
+}
+
+std::optional<std::string> frozen_truth_hint(const Trajectory& truth,
+                                             std::span<const Trajectory* const> estimates) {
+  constexpr Duration kLeast = 2 * kSecond;
+  constexpr double kSame = 1e-9, kMoves = 0.5;  // [m]
+  if (truth.empty() || estimates.empty()) return std::nullopt;
+  const Eigen::Vector3d place = truth.back().pose.translation;
+  const auto moves = [&place](const StampedPose& each) {
+    return (each.pose.translation - place).norm() > kSame;
+  };
+  const auto before = std::ranges::find_if(truth.rbegin(), truth.rend(), moves);
+  if (before == truth.rbegin() || before == truth.rend()) return std::nullopt;
+  const Time since = before.base()->stamp, end = truth.back().stamp;
+  if (end - since < kLeast) return std::nullopt;
+  double least = std::numeric_limits<double>::max();
+  for (const Trajectory* each : estimates) {
+    double farthest = 0.0;
+    std::optional<Eigen::Vector3d> first;
+    for (const StampedPose& pose : *each) {
+      if (pose.stamp < since || pose.stamp > end || !pose.pose.translation.allFinite()) continue;
+      if (!first) first = pose.pose.translation;
+      farthest = std::max(farthest, (pose.pose.translation - *first).norm());
+    }
+    least = std::min(least, farthest);
+  }
+  if (least < kMoves) return std::nullopt;
+  return fmt::format(
+      "it repeats one pose from {:.1f} s after its start to its end, for {:.1f} s, while the "
+      "estimates move by {:.2f} m or more: a motion capture that lost the body, or a recording "
+      "of it that ended; scores from there on are wrong",
+      to_seconds(since - truth.front().stamp), to_seconds(end - since), least);
 }
 
 std::optional<std::string> position_unit_hint(const Trajectory& estimate, const Trajectory& truth,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "bench/metrics/scores.hpp"
@@ -13,6 +14,18 @@ namespace aims {
 /// the option that reads it, "its stamps span 1000 times the truth's: likely ms, which --stamp-unit
 /// ms reads"; of the opposite, that the truth's stamps are such.
 std::optional<std::string> stamp_unit_hint(const Trajectory& estimate, const Trajectory& truth);
+
+/// Whether the stamps are numbers of frames: whole ones that rise from 0 or 1 on.
+bool is_frame_index(const Trajectory& poses);
+
+/// Where the stamps of one side alone are numbers of frames, and do not fit the other's: that, and
+/// what to do.
+std::optional<std::string> frame_index_hint(const Trajectory& estimate, const Trajectory& truth);
+
+/// Where the truth repeats one pose over its last two seconds or more, and every estimate moves on:
+/// since when.
+std::optional<std::string> frozen_truth_hint(const Trajectory& truth,
+                                             std::span<const Trajectory* const> estimates);
 
 /// Where the positions of one side spread 1000 or 100 times as far as the other's: their likely
 /// unit.

@@ -10,6 +10,7 @@
 #include "bench/scoring/json_text.hpp"
 #include "bench/scoring/score_statistics.hpp"
 #include "bench/scoring/validity.hpp"
+#include "core/text.hpp"
 
 namespace aims {
 namespace {
@@ -123,20 +124,14 @@ std::string spread_mark(const RunRecord& run, const Row& row) {
   return value_in(scores, "ate_se3_degenerate", false) ? " line" : "";
 }
 
-/// The value in a number of digits; what rounds to zero has no sign.
-std::string fixed(double value, int digits) {
-  std::string text = fmt::format("{:.{}f}", value, digits);
-  const bool zero = text.find_first_not_of("-0.") == std::string::npos;
-  return zero && text.front() == '-' ? text.substr(1) : text;
-}
-
 std::string cell(std::span<const RunRecord> runs, const Row& row, const Column& column,
                  const std::optional<double>& best) {
   const ScoreStatistics summary = statistics_in(runs, row, column.key);
   if (!summary.median) return "-";
   const bool success = has_success(runs, row);
-  std::string text = fixed(*summary.median, column.score.digits);
-  if (runs.size() > 1) text += fmt::format(" ({})", fixed(*summary.worst, column.score.digits));
+  std::string text = decimal_text(*summary.median, column.score.digits);
+  if (runs.size() > 1)
+    text += fmt::format(" ({})", decimal_text(*summary.worst, column.score.digits));
   if (success && best && *summary.median == *best && is_comparable(runs, row)) text += "*";
   const bool timing = is_timing(column.key);
   if (runs.size() > 1 && !success && !timing) text += " x";

@@ -37,8 +37,9 @@ Result<void> check_overlap(const SourcedTrajectory& estimate, const SourcedTraje
   const Trajectory span = {*first, *last};
   const Time begin = truth.trajectory.front().stamp;
   if (first->stamp <= truth.trajectory.back().stamp && last->stamp >= begin) return {};
-  if (const auto hint = stamp_unit_hint(estimate.trajectory, truth.trajectory)) {
-    return failure(fmt::format("{}: {}", estimate.source, *hint));
+  for (const auto& hint : {frame_index_hint(estimate.trajectory, truth.trajectory),
+                           stamp_unit_hint(estimate.trajectory, truth.trajectory)}) {
+    if (hint) return failure(fmt::format("{}: {}", estimate.source, *hint));
   }
   return failure(fmt::format(
       "{}: its stamps, {}, do not overlap the truth's, {}: likely a clock "
@@ -107,10 +108,14 @@ void note_truth(const ScoringInput& input, std::vector<std::string>& notes) {
 /// What likely makes the scores what they are, with the option that corrects it.
 void note_causes(const TrajectoryScores& result, std::vector<std::string>& notes) {
   const Trajectory& truth = result.truth.trajectory;
+  std::vector<const Trajectory*> estimates;
+  for (const ScoredEstimate& each : result.estimates) estimates.push_back(&each.given.trajectory);
+  if (const auto hint = frozen_truth_hint(truth, estimates)) notes.push_back("truth: " + *hint);
   for (const ScoredEstimate& each : result.estimates) {
     const Trajectory& given = each.given.trajectory;
     for (const auto& hint :
-         {stamp_unit_hint(given, truth), position_unit_hint(given, truth, result.scoring),
+         {frame_index_hint(given, truth), stamp_unit_hint(given, truth),
+          position_unit_hint(given, truth, result.scoring),
           world_hint(given, truth, result.scoring),
           body_frame_hint(given, truth, each.given.T_body_estimate, result.scoring)}) {
       if (hint) notes.push_back(fmt::format("{}: {}", each.given.name, *hint));

@@ -34,6 +34,8 @@ class CsvColumns {
                                  std::span<const std::string> only = {});
 
   std::size_t rows() const { return rows_; }
+  /// The line at which a row begins, from 1.
+  int line(std::size_t row) const { return lines_[row]; }
   const std::vector<std::string>& header() const { return header_; }
   bool has(std::string_view column) const { return index_.contains(column); }
 

@@ -299,6 +299,9 @@ void EskfEstimator::prepare_points(const LidarScan& scan, ScanDiagnostics& diagn
   points_.prepare(scan, scan_motion_, matching().state.T_odom_body());
   diagnostics.points_in = points_.in_range();
   if (points_.moving() > 0) result_.counts["lidar.moving"] += points_.moving();
+  const LeftOutByRange left_out = points_.left_out(scan);
+  if (left_out == LeftOutByRange::kTooNear) ++result_.counts["lidar.mostly_too_near"];
+  if (left_out == LeftOutByRange::kTooFar) ++result_.counts["lidar.mostly_too_far"];
 }
 
 void EskfEstimator::fuse_ground_constraint() {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/lidar/scan_points.hpp"
 
+#include <algorithm>
+
 namespace aims {
 namespace {
 
@@ -30,6 +32,15 @@ void ScanPoints::prepare(const LidarScan& scan, const ScanMotion& motion, const 
   if (!map_is_finer) select(map_.insertion_voxel, kMaxInsertions, to_map_);
   moving_.remove_from(to_match_);
   moving_count_ = moving_.remove_from(to_map_);
+}
+
+LeftOutByRange ScanPoints::left_out(const LidarScan& scan) const {
+  if (2 * static_cast<std::size_t>(in_range_) >= scan.points.size()) return LeftOutByRange::kFew;
+  const auto near = std::ranges::count_if(scan.points, [this](const LidarPoint& point) {
+    return point.position.norm() < static_cast<float>(lidar_.min_range);
+  });
+  const auto far = std::ssize(scan.points) - in_range_ - near;
+  return near > far ? LeftOutByRange::kTooNear : LeftOutByRange::kTooFar;
 }
 
 /// Compares the scan with earlier ones, before its returns are thinned.

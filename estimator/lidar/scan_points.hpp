@@ -14,6 +14,9 @@
 
 namespace aims {
 
+/// Whether more than half of the returns of a scan are left out by their ranges.
+enum class LeftOutByRange { kFew, kTooNear, kTooFar };
+
 /// From the returns of a raw scan to the points that are matched and those that are mapped: left
 /// out are mixed returns and those on things that move; the rest is thinned and deskewed.
 class ScanPoints {
@@ -32,6 +35,9 @@ class ScanPoints {
 
   /// Returns of the scan that are finite and in range.
   int in_range() const { return in_range_; }
+
+  /// Of the scan, which is that of `prepare`: which limit leaves out most of its returns.
+  LeftOutByRange left_out(const LidarScan& scan) const;
 
   /// Points to be mapped that were left out since they may move.
   int moving() const { return moving_count_; }

@@ -165,7 +165,7 @@ Result<FileRecord> read_file_header(const BagFile& file) {
   return header;
 }
 
-Result<BagIndex> read_index(const BagFile& file) {
+Result<BagIndex> read_index(const BagFile& file, std::size_t memory_limit) {
   const auto header = read_file_header(file);
   if (!header) return tl::unexpected(header.error());
   const auto index_position = header->header.number<std::uint64_t>("index_pos");
@@ -175,12 +175,16 @@ Result<BagIndex> read_index(const BagFile& file) {
     return file.refuse(header->position,
                        "expected 'index_pos', 'conn_count' and 'chunk_count' in the file header");
   }
-  const std::string remedy = "; --recover reads the intact chunks, `rosbag reindex` repairs it";
+  const auto with_remedy = [&](const std::string& message) {
+    const bool helps = has_intact_chunk(file, header->end(), memory_limit);
+    return message + (helps ? "; --recover reads the intact chunks, `rosbag reindex` repairs it"
+                            : "; no chunk of it is intact");
+  };
   if (*index_position == 0) {
-    return file.refuse(header->position, "the bag was never closed and has no index" + remedy);
+    return file.refuse(header->position, with_remedy("the bag was never closed and has no index"));
   }
   auto index = read_index_at(file, *index_position, *connection_count, *chunk_count);
-  if (!index) return failure(index.error().message + remedy);
+  if (!index) return failure(with_remedy(index.error().message));
   return index;
 }
 

@@ -20,8 +20,12 @@ struct BagIndex {
 /// The first record of a bag; error when the file is no bag of version 2.0 or is encrypted.
 Result<FileRecord> read_file_header(const BagFile& file);
 
-/// Reads the index that the file header points to.
-Result<BagIndex> read_index(const BagFile& file);
+/// Reads the index that the file header points to. The error of a damaged bag names what reads the
+/// rest, where a chunk of it is intact.
+Result<BagIndex> read_index(const BagFile& file, std::size_t memory_limit);
+
+/// Whether recovery would find a chunk, from `position` on.
+bool has_intact_chunk(const BagFile& file, std::uint64_t position, std::size_t memory_limit);
 
 /// Reads all chunks and keeps the intact ones: those that the index lists or, without an index,
 /// those found by scanning from the start. Chunks beyond `memory_limit` count as damaged.

@@ -21,8 +21,8 @@ class BagContainer final : public ChunkContainer {
   Result<void> load(const ChunkPlace& place, ChunkContent& content) override {
     Result<void> got = load_chunk(file_, place, index_.connections, content);
     if (got && !recover_) got = check_chunk_index(file_, place, content);
-    if (!got) return failure(got.error().message + "; --recover skips damaged chunks");
-    return {};
+    if (got || recover_) return got;
+    return failure(got.error().message + "; --recover skips damaged chunks");
   }
 
   std::string_view remedy() const override {
@@ -40,7 +40,8 @@ class BagContainer final : public ChunkContainer {
 Result<BagReader> BagReader::open(const std::filesystem::path& path, BagOpenOptions options) {
   auto file = BagFile::open(path);
   if (!file) return tl::unexpected(file.error());
-  auto index = options.recover ? recover_index(*file, options.memory_limit) : read_index(*file);
+  auto index = options.recover ? recover_index(*file, options.memory_limit)
+                               : read_index(*file, options.memory_limit);
   if (!index) return tl::unexpected(index.error());
   BagSummary summary = summarize(*file, index->chunks);
   summary.indexed = summary.closed = index->indexed;

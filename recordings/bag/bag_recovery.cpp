@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recordings/bag/bag_index.hpp"
 
+#include <algorithm>
+
 namespace aims {
 namespace {
 
@@ -36,8 +38,18 @@ std::uint64_t scan_chunks(const BagFile& file, std::uint64_t position,
 
 }  // namespace
 
+bool has_intact_chunk(const BagFile& file, std::uint64_t position, std::size_t memory_limit) {
+  std::vector<ChunkPlace> candidates;
+  scan_chunks(file, position, candidates);
+  BagIndex index;
+  ChunkContent content;
+  return std::ranges::any_of(candidates, [&](ChunkPlace& place) {
+    return read_chunk(file, memory_limit, index, place, content) && !place.counts.empty();
+  });
+}
+
 Result<BagIndex> recover_index(const BagFile& file, std::size_t memory_limit) {
-  auto known = read_index(file);
+  auto known = read_index(file, memory_limit);
   BagIndex index;
   std::vector<ChunkPlace> candidates;
   if (known) {

@@ -101,12 +101,14 @@ void CloudSurvey::read_points(const PointTable& table, Cloud& cloud) {
       z(table, *table.find("z"));
   cloud.ranges.resize(times.size());
   rings_.begin(table);
+  turn_parts_.begin();
   last_azimuths_.assign(static_cast<std::size_t>(std::numbers::pi / kElevationBin) + 1, {});
   for (std::size_t i = 0; i < table.size(); ++i) {
     const std::byte* bytes = table.point(i);
     const Eigen::Vector3d position(x.at(bytes), y.at(bytes), z.at(bytes));
     if (!position.allFinite() || position.isZero(0.0)) continue;
     rings_.add(table, i, position);
+    turn_parts_.add(position);
     if (ranges_.size() < kMaxRanges) ranges_.push_back(position.norm());
     add_azimuth(position);
     if (intensity != nullptr) {
@@ -281,7 +283,7 @@ void CloudSurvey::note_azimuth_times(const CloudReading& reading, ReadingNotes& 
       fmt::format("points have no time: derived from azimuth, spinning {}, {:.4g} s per turn "
                   "(lidar_clockwise, lidar_rate)",
                   reading.clockwise ? "clockwise" : "counter-clockwise",
-                  to_seconds(reading.period)));
+                  to_seconds(reading.scan_period())));
   const int steps = rising_azimuths_ + falling_azimuths_;
   const int opposite = reading.clockwise ? rising_azimuths_ : falling_azimuths_;
   if (steps > 100 && opposite > 0.7 * steps) {
@@ -399,11 +401,18 @@ void CloudSurvey::decide_unit(const RecordingConfig& config, CloudReading& readi
 CloudReading CloudSurvey::decide(const RecordingConfig& config, ReadingNotes& notes) const {
   CloudReading reading;
   reading.clockwise = config.lidar_clockwise;
+  reading.parts = turn_parts_.find();
   decide_times(config, reading, notes);
   decide_stamp(config, reading, notes);
   rings_.decide(reading, notes);
   decide_intensity(reading, notes);
   decide_unit(config, reading, notes);
+  if (reading.parts.count > 1) {
+    notes.push_back(fmt::format(
+        "each cloud is a part of a turn, of {:.3g} deg: {} of them are joined to a scan of {:.4g} "
+        "s",
+        360.0 / reading.parts.count, reading.parts.count, to_seconds(reading.scan_period())));
+  }
   return reading;
 }
 

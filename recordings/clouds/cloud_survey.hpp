@@ -8,6 +8,7 @@
 #include "recordings/clouds/point_cloud.hpp"
 #include "recordings/clouds/ring_survey.hpp"
 #include "recordings/clouds/stamp_steps.hpp"
+#include "recordings/clouds/turn_parts.hpp"
 #include "recordings/reading_notes.hpp"
 
 namespace aims {
@@ -67,6 +68,7 @@ class CloudSurvey {
   double largest_intensity_ = 0.0;
   std::vector<double> ranges_;  ///< of the first points [m]
   RingSurvey rings_;
+  TurnPartFinder turn_parts_;
   std::vector<std::optional<float>> last_azimuths_;  ///< in this cloud, by elevation [rad]
   int rising_azimuths_ = 0, falling_azimuths_ = 0;
 };

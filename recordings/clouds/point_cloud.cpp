@@ -211,7 +211,7 @@ std::vector<LidarPoint> CloudDecoder::points() {
   return points;
 }
 
-/// Times from azimuth: the first point fires at the start, a full turn takes the period.
+/// Times from azimuth: the first point fires at the start, a full turn takes that of the scan.
 void time_by_azimuth(const CloudReading& reading, std::vector<LidarPoint>& points) {
   if (points.empty()) return;
   const auto azimuth = [](const LidarPoint& point) {
@@ -224,7 +224,7 @@ void time_by_azimuth(const CloudReading& reading, std::vector<LidarPoint>& point
     double turned = sense * (azimuth(points[i]) - start);
     turned -= kTurn * std::floor(turned / kTurn);
     if (turned > kTurn - kStartMargin && i < points.size() / 4) turned = 0.0;
-    const double offset = turned / kTurn * static_cast<double>(reading.period);
+    const double offset = turned / kTurn * static_cast<double>(reading.scan_period());
     points[i].time_offset_ns = static_cast<std::int32_t>(std::llround(offset));
   }
 }

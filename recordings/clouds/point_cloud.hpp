@@ -7,6 +7,7 @@
 #include "core/lidar_rings.hpp"
 #include "core/measurements.hpp"
 #include "recordings/clouds/point_table.hpp"
+#include "recordings/clouds/turn_parts.hpp"
 #include "recordings/event_counts.hpp"
 #include "recordings/recording_config.hpp"
 
@@ -32,7 +33,8 @@ struct CloudReading {
   bool normalized_times = false;          ///< the unit is the scan: from 0 to 1 or -1 to 0
   CloudStamp stamp = CloudStamp::kStart;  ///< never kAuto
   bool counted_from_start = true;         ///< times begin with the scan, not at the stamp
-  Duration period = 100 * kMillisecond;   ///< nominal, of one scan
+  Duration period = 100 * kMillisecond;   ///< nominal, of one cloud
+  TurnParts parts;                        ///< of clouds that are no whole scans
   bool clockwise = true;                  ///< direction of spin, for kNone
   RingSource ring_source = RingSource::kNone;
   std::string ring_field;
@@ -42,6 +44,9 @@ struct CloudReading {
   double position_scale = 1.0;          ///< of the coordinates to metres
   std::string intensity_field;          ///< empty: none
   float intensity_scale = 1.0F;         ///< scales it to [0, 1]
+
+  /// Nominal, of one scan.
+  Duration scan_period() const { return period * parts.count; }
 };
 
 /// The points in firing order, each with its own time. A point that is not finite, at the origin,

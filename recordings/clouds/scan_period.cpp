@@ -68,6 +68,29 @@ std::optional<double> time_unit(double span, Duration about) {
   return best;
 }
 
+std::optional<double> batched_rate(std::vector<Time> times) {
+  constexpr Duration kPause = 5;       // times the usual spacing
+  constexpr std::size_t kFewest = 5;   // pauses
+  constexpr double kMostOfTime = 0.6;  // that the pauses take
+  if (times.size() < 2) return std::nullopt;
+  std::sort(times.begin(), times.end());
+  std::vector<Duration> between;
+  for (std::size_t i = 1; i < times.size(); ++i) between.push_back(times[i] - times[i - 1]);
+  const Duration usual = *upper_median(between);
+  std::size_t pauses = 0;
+  Duration paused = 0;
+  for (const Duration each : between) {
+    if (each <= kPause * usual) continue;
+    ++pauses;
+    paused += each;
+  }
+  const Duration whole = times.back() - times.front();
+  const bool batched = pauses >= kFewest && 2 * pauses < between.size() &&
+                       static_cast<double>(paused) > kMostOfTime * static_cast<double>(whole);
+  if (!batched) return std::nullopt;
+  return static_cast<double>(times.size() - 1) / to_seconds(whole);
+}
+
 std::optional<double> sample_rate(std::vector<Time> stamps) {
   std::sort(stamps.begin(), stamps.end());
   const std::vector<Duration> between = spacings(stamps);

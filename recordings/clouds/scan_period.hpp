@@ -27,4 +27,8 @@ std::optional<double> time_unit(double span, Duration about);
 /// have no effect; else from the median, if half are close to it; else from the mean.
 std::optional<double> sample_rate(std::vector<Time> stamps);
 
+/// Sample rate [Hz] of samples that arrive in batches, with pauses in between that take most of the
+/// time; nothing of others.
+std::optional<double> batched_rate(std::vector<Time> times);
+
 }  // namespace aims

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/files/csv_columns.hpp"
+#include "core/files/iso_time.hpp"
 #include "core/files/number_lines.hpp"
 #include "core/files/text_file.hpp"
 #include "recordings/csv/csv_mapping.hpp"
@@ -73,8 +74,9 @@ Result<void> check_none_empty(const Columns& columns, const std::vector<std::str
                   file, names[index], fmt::join(names, ", ")));
 }
 
-/// The time in a cell, or nothing.
+/// The time in a cell, or nothing. A date needs no unit.
 std::optional<Time> time_of(const std::string& cell, CsvTimeUnit unit) {
+  if (const auto date = parse_iso_time(cell)) return date->time;
   if (unit == CsvTimeUnit::kSeconds) return parse_stamp(cell);
   if (unit == CsvTimeUnit::kNanoseconds) {
     Time time = 0;
@@ -96,6 +98,14 @@ std::string likely_unit(const std::string& cell) {
   return unit == nullptr ? "" : fmt::format("; likely time_unit: {}", unit);
 }
 
+/// A cell in an error.
+std::string shown(const std::string& cell) {
+  if (cell.empty()) return "an empty cell";
+  const auto number = parse_number(cell, false);
+  return number && std::isnan(*number) ? fmt::format("NaN ('{}')", cell)
+                                       : fmt::format("'{}'", cell);
+}
+
 /// The table without the line that names its separator to a spreadsheet ("sep=,"), and with lines
 /// that end in a line feed where all end in a carriage return alone.
 std::string plain_text(std::string text) {
@@ -114,8 +124,9 @@ Result<std::vector<Time>> times_of(const CsvColumns& csv, const CsvMapping& mapp
     const auto time = time_of(cell, mapping.time_unit);
     const Time least = times.empty() ? 0 : times.back();
     if (!time || *time < least) {
-      return failure(fmt::format("{}: row {}: expected a time >= {} ns, found '{}'{}", file,
-                                 times.size() + 1, least, cell, likely_unit(cell)));
+      return failure(fmt::format("{}:{}: {}: expected a time >= {} ns, found {}{}", file,
+                                 csv.line(times.size()), mapping.time, least, shown(cell),
+                                 likely_unit(cell)));
     }
     times.push_back(*time);
   }

@@ -25,16 +25,17 @@ struct TopicInfo {
   std::string type;
   std::string frame;  ///< of the first header; empty: no header
   std::uint64_t messages = 0;
-  bool stamped = false;                   ///< the messages have stamps other than zero
-  bool zero_stamps = false;               ///< all stamps are zero: record times serve
-  std::uint64_t unset_record_times = 0;   ///< recorded at time 0
-  double recorder_step_s = 0.0;           ///< by which the recorder's clock was set back
-  std::optional<double> rate_hz;          ///< of the median spacing of stamps
-  std::optional<double> largest_gap_s;    ///< between stamps
-  std::optional<double> loss;             ///< fraction of messages missing, from the spacings [-]
-  std::uint64_t repeated = 0;             ///< stamps equal to the one before
-  std::uint64_t backwards = 0;            ///< stamps before the one before
-  std::optional<double> median_offset_s;  ///< record time minus stamp
+  bool stamped = false;                  ///< the messages have stamps other than zero
+  bool zero_stamps = false;              ///< all stamps are zero: record times serve
+  std::uint64_t unset_record_times = 0;  ///< recorded at time 0
+  double recorder_step_s = 0.0;          ///< by which the recorder's clock was set back
+  std::optional<double> rate_hz;         ///< of the median spacing of stamps
+  std::optional<double> largest_gap_s;   ///< between stamps
+  std::optional<double> loss;            ///< fraction of messages missing, from the spacings [-]
+  std::optional<double> messages_per_stamp;  ///< of most messages, which come in batches
+  std::uint64_t repeated = 0;                ///< stamps equal to the one before
+  std::uint64_t backwards = 0;               ///< stamps before the one before
+  std::optional<double> median_offset_s;     ///< record time minus stamp
   std::optional<double> smallest_offset_s;
   std::optional<double> largest_offset_s;
   std::optional<ClockOffset> clock;  ///< relative to the IMU, from the angular rates of both

@@ -4,17 +4,19 @@
 #include <numbers>
 
 #include "core/files/table.hpp"
+#include "core/text.hpp"
 #include "recordings/inspection/bag_info.hpp"
 
 namespace aims {
 namespace {
 
 std::string number(const std::optional<double>& value, int digits, double factor = 1.0) {
-  return value ? fmt::format("{:.{}f}", factor * *value, digits) : "-";
+  return value ? decimal_text(factor * *value, digits) : "-";
 }
 
 std::string vector_text(const Eigen::Vector3d& v, int digits) {
-  return fmt::format("[{:.{}f}, {:.{}f}, {:.{}f}]", v.x(), digits, v.y(), digits, v.z(), digits);
+  return fmt::format("[{}, {}, {}]", decimal_text(v.x(), digits), decimal_text(v.y(), digits),
+                     decimal_text(v.z(), digits));
 }
 
 std::string head_text(const BagInfo& info) {
@@ -29,10 +31,11 @@ std::string topics_text(const BagInfo& info) {
   table.header = {"topic",  "type",     "messages",  "Hz",      "gap max s",
                   "lost %", "repeated", "backwards", "delay s", "clock offset s"};
   for (const TopicInfo& each : info.topics) {
-    const std::string offset = each.median_offset_s
-                                   ? fmt::format("{:.3f} ({:.3f} to {:.3f})", *each.median_offset_s,
-                                                 *each.smallest_offset_s, *each.largest_offset_s)
-                                   : "-";
+    const std::string offset =
+        each.median_offset_s ? fmt::format("{} ({} to {})", decimal_text(*each.median_offset_s, 3),
+                                           decimal_text(*each.smallest_offset_s, 3),
+                                           decimal_text(*each.largest_offset_s, 3))
+                             : "-";
     table.rows.push_back({each.topic, each.type, std::to_string(each.messages),
                           number(each.rate_hz, 1), number(each.largest_gap_s, 3),
                           number(each.loss, 2, 100.0), std::to_string(each.repeated),

@@ -7,8 +7,11 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
+#include "core/text.hpp"
 #include "recordings/source/recording_file.hpp"
+#include "recordings/stream/too_short.hpp"
 #include "recordings/topics/topic_choice.hpp"
 
 namespace aims {
@@ -26,6 +29,7 @@ constexpr double kLastSample = 0.1;            ///< an interval ends with its la
 constexpr double kGravity = 9.81;              ///< [m/s^2]
 constexpr double kMaxForceError = 0.3;         ///< of a static accelerometer from gravity [m/s^2]
 constexpr double kMinImuRate = 100.0;          ///< [Hz]
+constexpr double kStandingClock = 5.0;         ///< messages with one stamp, as `hardly_advance`
 
 /// The sensor whose delay concerns the topic.
 std::string_view delay_of(const TopicInfo& topic) {
@@ -128,12 +132,21 @@ void warn_of_times(const BagInfo& info, const TopicInfo& topic, std::vector<std:
                     "record to a faster disk or with a larger buffer (rosbag record -b 0)",
                     topic.topic, 100.0 * *topic.loss));
   }
-  if (!paused && topic.rate_hz &&
+  if (!paused && topic.rate_hz && !topic.messages_per_stamp &&
       topic.largest_gap_s.value_or(0.0) * *topic.rate_hz > kMaxGapPeriods) {
     out.push_back(fmt::format("{}: a gap of {:.2f} s; estimators bridge it with the other sensors",
                               topic.topic, *topic.largest_gap_s));
   }
-  if (topic.repeated + topic.backwards > 0) {
+  if (topic.messages_per_stamp) {
+    out.push_back(
+        fmt::format("{}: comes in batches of about {:.0f} messages with one stamp: {:.1f} Hz, but "
+                    "{:.1f} stamps "
+                    "a second; {}: have the driver stamp each message",
+                    topic.topic, *topic.messages_per_stamp, topic.rate_hz.value_or(0.0),
+                    topic.rate_hz.value_or(0.0) / *topic.messages_per_stamp,
+                    *topic.messages_per_stamp > kStandingClock ? "record times serve in their place"
+                                                               : "one of each batch is used"));
+  } else if (topic.repeated + topic.backwards > 0) {
     out.push_back(
         fmt::format("{}: {} stamps repeat and {} go backwards; such messages are dropped: fix the "
                     "driver's clock",
@@ -164,10 +177,11 @@ void warn_of_offsets(const BagInfo& info, std::vector<std::string>& out) {
   }
   if (!earliest || *latest->median_offset_s - *earliest->median_offset_s < kMaxOffsetDifference)
     return;
-  out.push_back(fmt::format(
-      "{} is recorded {:.3f} s after its stamps, {} {:.3f} s: their clocks "
-      "may differ; synchronise them, or set recording.*_delay",
-      latest->topic, *latest->median_offset_s, earliest->topic, *earliest->median_offset_s));
+  out.push_back(
+      fmt::format("{} is recorded {} s after its stamps, {} {} s: their clocks "
+                  "may differ; synchronise them, or set recording.*_delay",
+                  latest->topic, decimal_text(*latest->median_offset_s, 3), earliest->topic,
+                  decimal_text(*earliest->median_offset_s, 3)));
 }
 
 void warn_of_clouds(const CloudInfo& cloud, std::vector<std::string>& out) {
@@ -194,6 +208,13 @@ void warn_of_clouds(const CloudInfo& cloud, std::vector<std::string>& out) {
   }
 }
 
+/// What is too short to tell anything.
+std::optional<std::string> too_short(const BagInfo& info) {
+  const TopicInfo* lidar = info.find(info.used.lidar);
+  const double seconds = to_seconds(info.summary.end - info.summary.start);
+  return too_short_text(lidar == nullptr ? std::nullopt : std::optional(lidar->messages), seconds);
+}
+
 void warn_of_imu(const BagInfo& info, const ImuInfo& imu, std::vector<std::string>& out) {
   if (imu.in_g) {
     out.push_back(fmt::format(
@@ -209,8 +230,10 @@ void warn_of_imu(const BagInfo& info, const ImuInfo& imu, std::vector<std::strin
                     imu.topic, *topic->rate_hz));
   }
   const bool disordered = topic && topic->recorder_step_s > 0.0;  // the interval is cut
-  if (!disordered && (!imu.static_interval || imu.static_interval->begin_s > 1.0 ||
-                      imu.static_interval->length_s < kMinStaticInterval - kLastSample)) {
+  const bool short_one = too_short(info).has_value();
+  if (!disordered && !short_one &&
+      (!imu.static_interval || imu.static_interval->begin_s > 1.0 ||
+       imu.static_interval->length_s < kMinStaticInterval - kLastSample)) {
     out.push_back(
         fmt::format("{}: the robot is not static for {:.0f} s at the start; tilt and gyro bias are "
                     "then uncertain: let it stand before it walks",
@@ -265,6 +288,7 @@ bool has_sensor_transform(const BagInfo& info) {
 std::vector<std::string> bag_warnings(const BagInfo& info) {
   std::vector<std::string> out;
   warn_of_damage(info, out);
+  if (auto text = too_short(info)) out.push_back(std::move(*text));
   warn_of_recorder(info, out);
   if (info.undecodable > 0) {
     out.push_back(fmt::format("{} messages contradict their definition; the first: {}",

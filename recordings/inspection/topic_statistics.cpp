@@ -99,6 +99,11 @@ void TopicStatistics::finish_spacings(TopicInfo& info) const {
   const auto typical = typical_spacing(onwards);
   if (!typical || !(*typical > 0.0)) return;
   info.rate_hz = 1.0 / *typical;
+  if (info.repeated > onwards.size()) {
+    const auto messages = static_cast<double>(entries_.size());
+    info.messages_per_stamp = messages / static_cast<double>(onwards.size() + 1);
+    info.rate_hz = *info.messages_per_stamp / *typical;
+  }
   info.largest_gap_s = std::ranges::max(onwards);
   info.loss = loss_of(onwards, *typical);
 }

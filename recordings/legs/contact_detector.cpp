@@ -85,9 +85,18 @@ Result<ContactThreshold> learn_threshold(std::vector<double> logarithms) {
 std::array<bool, kLegCount> ContactDetector::detect(const FootLoads& loads) {
   for (std::size_t leg = 0; leg < loads.size(); ++leg) {
     const ContactThreshold& threshold = thresholds_[leg];
-    contact_[leg] = std::abs(loads[leg]) >= (contact_[leg] ? threshold.end : threshold.begin);
+    const double load = threshold.sign == 0 ? std::abs(loads[leg]) : threshold.sign * loads[leg];
+    contact_[leg] = load >= (contact_[leg] ? threshold.end : threshold.begin);
   }
   return contact_;
+}
+
+bool ContactDetector::contradicts_sign(const FootLoads& loads) const {
+  for (std::size_t leg = 0; leg < loads.size(); ++leg) {
+    const ContactThreshold& threshold = thresholds_[leg];
+    if (threshold.sign != 0 && -threshold.sign * loads[leg] >= threshold.begin) return true;
+  }
+  return false;
 }
 
 Result<std::array<ContactThreshold, kLegCount>> learn_contact_thresholds(

@@ -15,10 +15,11 @@ namespace aims {
 struct ContactThreshold {
   double begin = 0.0;
   double end = 0.0;
+  int sign = 0;  ///< of the load of a foot that stands; 0: either, as of torques
 };
 
-/// Detects contacts in a sequence of loads, in newtons or any other unit. The sign of a load is
-/// ignored: the torque of a loaded knee has either one.
+/// Detects contacts in a sequence of loads, in newtons or any other unit. Without a sign in the
+/// threshold that of a load is ignored: the torque of a loaded knee has either one.
 class ContactDetector {
  public:
   ContactDetector() = default;
@@ -26,6 +27,9 @@ class ContactDetector {
       : thresholds_(thresholds) {}
 
   std::array<bool, kLegCount> detect(const FootLoads& loads);
+
+  /// Whether a load is as large as that of a foot in contact, and has the other sign.
+  bool contradicts_sign(const FootLoads& loads) const;
 
  private:
   std::array<ContactThreshold, kLegCount> thresholds_{};

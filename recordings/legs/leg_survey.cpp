@@ -35,6 +35,10 @@ void LegSurvey::add_joints(const MessageView& message, Time record_time, const S
   if (joint_names_.empty()) {
     const auto names = joint_names_at(message, state);
     joint_names_ = fmt::format("{}", fmt::join(names, ", ")).substr(0, kMaxListed);
+    const auto first = names.empty() ? std::nullopt : leg_of_name(names.front());
+    joints_of_one_leg_ = first && std::ranges::all_of(names, [&](std::string_view name) {
+                           return leg_of_name(name) == first;
+                         });
   }
   if (const auto effort = message.numbers("effort"); effort && !effort->empty()) ++effort_messages_;
 }
@@ -68,6 +72,12 @@ std::string LegSurvey::lack_of_joints() const {
         "{}: the joints have no names: set recording.joint_names to the twelve "
         "indices of FL, FR, RL, RR: abduction, hip, knee",
         topics_.joint_states);
+  }
+  if (joints_of_one_leg_) {
+    return fmt::format(
+        "{}: each message holds the joints of one leg ({}): expected those of all four in one "
+        "message; join them before",
+        topics_.joint_states, joint_names_);
   }
   return fmt::format("{}: the names do not identify the twelve joints (joint_names): {}",
                      topics_.joint_states, joint_names_);
@@ -119,6 +129,7 @@ void LegSurvey::add_contacts(const MessageView& message, const std::string& type
   const auto loads = loads_at(message, rule_of(0.0));
   if (!loads) return;
   ++contact_messages_;
+  first_loads_.push_back(*loads);
   feet_unnamed_ = feet_unnamed_ || !feet_are_named(message, rule_of(0.0));
   for (const double load : *loads) {
     if (std::isfinite(load)) largest_load_ = std::max(largest_load_, std::abs(load));
@@ -238,7 +249,70 @@ ContactRule LegSurvey::without_contacts(const std::string& reason, ReadingNotes&
   return rule_of(std::numeric_limits<double>::infinity());
 }
 
+/// Whether the loads are torques of the knees, of either sign.
+bool LegSurvey::loads_are_torques() const {
+  const auto named = [this](std::string_view part) {
+    return contact_field_.find(part) != std::string::npos;
+  };
+  const bool of_state =
+      contact_state_ != nullptr && contact_state_->contact_kind == ContactKind::kTorque;
+  return of_state || named("effort") || named("torque") || named("tau");
+}
+
+/// Of loads whose sign tells something; else all are as they should be.
+std::array<LoadRange, kLegCount> LegSurvey::ranges_of_loads() const {
+  constexpr double kCounts = 1.0, kParts = 0.1;  // negligible, of counts and of fractions
+  if (contacts_are_flags_ || loads_are_torques()) return {};
+  if (!loads_.empty()) return load_ranges(loads_, kCounts);
+  return load_ranges(first_loads_, largest_load_ <= 1.0 ? kParts : config_.contact_threshold);
+}
+
+/// Of the feet whose loads tell no contact; empty without.
+std::string LegSurvey::offset_text(const std::array<LoadRange, kLegCount>& ranges) const {
+  const std::string feet = feet_text(ranges, LoadSign::kUnclear);
+  if (feet.empty()) return {};
+  return fmt::format(
+      "{}: the loads of {} are negative, but not between zero and negative as of a reversed sign: "
+      "the sensor has an offset; take it off in the driver",
+      topics_.contacts, feet);
+}
+
+/// The rule with the sign that the loads have, without the feet whose loads tell no contact.
+Result<ContactRule> LegSurvey::with_signs(ContactRule rule, ReadingNotes& notes) const {
+  const auto ranges = ranges_of_loads();
+  const std::string reversed = feet_text(ranges, LoadSign::kNegative);
+  const std::string offset = offset_text(ranges);
+  if (!reversed.empty()) {
+    notes.warn("loads of the feet are negative",
+               fmt::format("{}: the loads of {} are negative: taken as of the reversed sign",
+                           topics_.contacts, reversed));
+  }
+  const auto is_unclear = [](const LoadRange& each) { return each.sign == LoadSign::kUnclear; };
+  if (std::ranges::all_of(ranges, is_unclear)) return failure(offset);
+  if (!offset.empty()) {
+    notes.warn("loads of the feet have an offset", offset + "; no contact of these feet is used");
+  }
+  const bool by_threshold = loads_.empty() && !contacts_are_flags_ && !loads_are_torques();
+  for (std::size_t leg = 0; leg < ranges.size(); ++leg) {
+    ContactThreshold& threshold = rule.thresholds[leg];
+    if (by_threshold) threshold.sign = ranges[leg].sign == LoadSign::kNegative ? -1 : 1;
+    if (is_unclear(ranges[leg])) {
+      threshold.begin = threshold.end = std::numeric_limits<double>::infinity();
+    }
+  }
+  return rule;
+}
+
 Result<ContactRule> LegSurvey::decide_contacts(ReadingNotes& notes) const {
+  auto rule = rule_of_loads(notes);
+  if (topics_.contacts.empty() || contact_messages_ == 0) return rule;
+  const std::string offset = rule ? "" : offset_text(ranges_of_loads());
+  if (!offset.empty()) return failure(offset);
+  if (!rule) return rule;
+  return with_signs(std::move(*rule), notes);
+}
+
+Result<ContactRule> LegSurvey::rule_of_loads(ReadingNotes& notes) const {
   ContactRule rule = rule_of(config_.contact_threshold);
   if (topics_.contacts.empty()) return rule;
   if (contact_messages_ == 0) {

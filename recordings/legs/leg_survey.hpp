@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "recordings/legs/leg_messages.hpp"
 #include "recordings/legs/leg_order.hpp"
 #include "recordings/legs/leg_stream.hpp"
+#include "recordings/legs/load_signs.hpp"
 #include "recordings/messages/message_decoder.hpp"
 #include "recordings/reading_notes.hpp"
 #include "recordings/recording_config.hpp"
@@ -78,6 +80,11 @@ class LegSurvey {
   std::string lack_of_contacts() const;
   ContactRule rule_of(double threshold) const;
   Result<ContactRule> learned_rule(ReadingNotes& notes) const;
+  bool loads_are_torques() const;
+  std::array<LoadRange, kLegCount> ranges_of_loads() const;
+  std::string offset_text(const std::array<LoadRange, kLegCount>& ranges) const;
+  Result<ContactRule> rule_of_loads(ReadingNotes& notes) const;
+  Result<ContactRule> with_signs(ContactRule rule, ReadingNotes& notes) const;
   void choose_contact_field(const std::string& type, const MessageDecoder& decoder,
                             const StateLayout* state);
   LegSource decide_feet(ReadingNotes& notes);
@@ -88,8 +95,9 @@ class LegSurvey {
   int joint_messages_ = 0;
   int complete_joint_messages_ = 0;  ///< with all twelve joints
   int unnamed_joint_messages_ = 0;
-  int large_angles_ = 0;     ///< messages with an angle that no joint has in rad
-  std::string joint_names_;  ///< recorded, of the first message
+  int large_angles_ = 0;            ///< messages with an angle that no joint has in rad
+  std::string joint_names_;         ///< recorded, of the first message
+  bool joints_of_one_leg_ = false;  ///< of the first message, by their names
   JointRule joint_rule_;
   LegOrderFinder order_finder_;
   bool feet_unnamed_ = false;
@@ -103,8 +111,9 @@ class LegSurvey {
   const StateLayout* feet_state_ = nullptr;     ///< of the feet without joints
   double largest_load_ = 0.0;
   bool has_feet_ = false;
-  double farthest_foot_ = 0.0;  ///< of the feet without joints [m]
-  std::vector<FootLoads> loads_;
+  double farthest_foot_ = 0.0;          ///< of the feet without joints [m]
+  std::vector<FootLoads> first_loads_;  ///< of the survey
+  std::vector<FootLoads> loads_;        ///< of the whole recording, where thresholds are learned
 };
 
 }  // namespace aims

@@ -15,8 +15,6 @@
 namespace aims {
 namespace {
 
-constexpr std::string_view kRecover = "; --recover reads the intact part";
-
 /// The records of the summary that are used.
 struct Summary {
   McapDefinitions definitions;
@@ -261,6 +259,34 @@ Result<Opened> open_mcap(const BagFile& file, std::size_t memory_limit) {
   return opened;
 }
 
+/// By the summary, else by all chunks.
+Result<McapIndex> read_opened(const BagFile& file, Opened opened, std::size_t memory_limit) {
+  if (opened.broken) return tl::unexpected(*opened.broken);
+  if (is_complete(*opened.summary)) {
+    return index_of(file, opened.data, std::move(*opened.summary), memory_limit);
+  }
+  McapIndex index;
+  index.indexed = false;
+  const McapScan scan = scan_mcap(file, opened.data, opened.summary->position);
+  if (scan.broken) return tl::unexpected(*scan.broken);
+  ChunkContent content;
+  for (const ChunkPlace& place : scan.chunks) {
+    const auto read = survey_chunk(file, memory_limit, content, place, index);
+    if (!read) return tl::unexpected(read.error());
+  }
+  return index;
+}
+
+/// Whether recovery would find a chunk.
+bool has_intact_mcap_chunk(const BagFile& file, std::uint64_t data, std::size_t memory_limit) {
+  const McapScan scan = scan_mcap(file, data, file.size(), true);
+  McapIndex index;
+  ChunkContent content;
+  return std::ranges::any_of(scan.chunks, [&](const ChunkPlace& place) {
+    return survey_chunk(file, memory_limit, content, place, index, true) && index.messages > 0;
+  });
+}
+
 }  // namespace
 
 Result<void> load_mcap_chunk(const BagFile& file, const ChunkPlace& place,
@@ -281,22 +307,12 @@ Result<void> load_mcap_chunk(const BagFile& file, const ChunkPlace& place,
 Result<McapIndex> read_mcap_index(const BagFile& file, std::size_t memory_limit) {
   auto opened = open_mcap(file, memory_limit);
   if (!opened) return tl::unexpected(opened.error());
-  if (opened->broken) return failure(opened->broken->message + std::string(kRecover));
-  Result<McapIndex> index = McapIndex();
-  if (is_complete(*opened->summary)) {
-    index = index_of(file, opened->data, std::move(*opened->summary), memory_limit);
-  } else {
-    index->indexed = false;
-    const McapScan scan = scan_mcap(file, opened->data, opened->summary->position);
-    if (scan.broken) return failure(scan.broken->message + std::string(kRecover));
-    ChunkContent content;
-    for (const ChunkPlace& place : scan.chunks) {
-      const auto read = survey_chunk(file, memory_limit, content, place, *index);
-      if (!read) return failure(read.error().message + std::string(kRecover));
-    }
-  }
-  if (!index) return failure(index.error().message + std::string(kRecover));
-  return index;
+  const std::uint64_t data = opened->data;
+  auto index = read_opened(file, std::move(*opened), memory_limit);
+  if (index) return index;
+  const bool helps = has_intact_mcap_chunk(file, data, memory_limit);
+  return failure(index.error().message +
+                 (helps ? "; --recover reads the intact part" : "; no chunk of it is intact"));
 }
 
 Result<McapIndex> recover_mcap_index(const BagFile& file, std::size_t memory_limit) {

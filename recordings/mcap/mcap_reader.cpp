@@ -25,8 +25,8 @@ class McapContainer final : public ChunkContainer {
     Result<void> got =
         load_mcap_chunk(file_, place, index_.definitions, content, recover_ ? &lost : nullptr);
     if (got && !recover_) got = check_content(place, content);
-    if (!got) return failure(got.error().message + "; --recover skips damaged chunks");
-    return {};
+    if (got || recover_) return got;
+    return failure(got.error().message + "; --recover skips damaged chunks");
   }
 
   std::string_view remedy() const override {

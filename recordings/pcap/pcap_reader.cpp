@@ -164,7 +164,8 @@ Result<std::optional<KindSource::Made>> PcapReader::make() {
   while (true) {
     const auto packet = pcap.packets.next();
     if (!packet && !pcap.recover) {
-      return failure(packet.error().message + "; --recover reads the part before");
+      const bool helps = pcap.packets_seen() > 0;
+      return failure(packet.error().message + (helps ? "; --recover reads the part before" : ""));
     }
     if (!packet) set_incomplete(pcap.packets.file().size() - pcap.packets.position());
     if (!packet || !*packet) {

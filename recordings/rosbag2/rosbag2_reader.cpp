@@ -64,10 +64,14 @@ Result<Rosbag2Metadata> files_of(const fs::path& recording, bool recover) {
                     recording.string(), kRosbag2Metadata));
   }
   if (recover) return found;
-  return failure(
-      fmt::format("{}: has no {}: recording was never completed; --recover reads the "
-                  "intact files, `ros2 bag reindex` writes it",
-                  recording.string(), kRosbag2Metadata));
+  const bool helps = std::ranges::any_of(found.files, [](const fs::path& file) {
+    const auto part = open_part(file, {.recover = true});
+    return part && (*part)->summary().messages > 0;
+  });
+  return failure(fmt::format(
+      "{}: has no {}: recording was never completed; {}", recording.string(), kRosbag2Metadata,
+      helps ? "--recover reads the intact files, `ros2 bag reindex` writes it"
+            : "none of its files can be read"));
 }
 
 }  // namespace

@@ -111,8 +111,15 @@ Result<std::unique_ptr<MessageSource>> merged(const std::string& name,
 
 /// Error for a file that is empty or packed as a whole.
 Result<void> refuse_packed(const fs::path& file) {
-  constexpr auto kPacked = std::to_array<std::pair<std::string_view, std::string_view>>(
-      {{"\x1f\x8b", "gunzip"}, {"BZh", "bunzip2"}, {"\xfd\x37zXZ", "unxz"}, {"PK", "unzip"}});
+  constexpr auto kPacked =
+      std::to_array<std::pair<std::string_view, std::string_view>>({{"\x1f\x8b", "gunzip"},
+                                                                    {"BZh", "bunzip2"},
+                                                                    {"\xfd\x37zXZ", "unxz"},
+                                                                    {"\x28\xb5\x2f\xfd", "unzstd"},
+                                                                    {"\x04\x22\x4d\x18", "unlz4"},
+                                                                    {"7z\xbc\xaf", "7z x"},
+                                                                    {"Rar!", "unrar"},
+                                                                    {"PK", "unzip"}});
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) return {};
   const std::string start = first_bytes(file);
@@ -146,6 +153,11 @@ std::string_view foreign_content(std::string_view start) {
   const std::string_view text = start.substr(std::min(first, start.size()));
   if (text.starts_with("version https://git-lfs")) {
     return "the file is a pointer of Git LFS: fetch its content with git lfs pull";
+  }
+  constexpr auto kEncrypted = std::to_array<std::string_view>(
+      {"Salted__", "age-encryption.org", "-----BEGIN PGP MESSAGE", "-----BEGIN AGE ENCRYPTED"});
+  if (std::ranges::any_of(kEncrypted, [&](auto sign) { return text.starts_with(sign); })) {
+    return "the file is encrypted: decrypt it first";
   }
   const bool page = text.starts_with("<!DOCTYPE") || text.starts_with("<!doctype") ||
                     text.starts_with("<html") || text.starts_with("<HTML");

@@ -14,6 +14,7 @@
 #include "recordings/messages/message_types.hpp"
 #include "recordings/stream/recorded_legs.hpp"
 #include "recordings/stream/recording_survey.hpp"
+#include "recordings/stream/single_legs.hpp"
 #include "recordings/topics/connection_decoders.hpp"
 #include "recordings/topics/topic_choice.hpp"
 
@@ -203,6 +204,15 @@ void warn_of_legs(MessageSource& bag, RecordingSetup& setup) {
        WarnedSensor::kLegs});
 }
 
+/// Of legs that are recorded, each in messages of its own.
+void warn_of_single_legs(MessageSource& bag, RecordingSetup& setup) {
+  if (setup.has_legs) return;
+  const std::string text = single_legs_text(bag.connections());
+  if (text.empty()) return;
+  setup.leg_lack = text;
+  setup.warnings.push_back({"legs in messages of their own", text, WarnedSensor::kLegs});
+}
+
 /// Of packets of the LiDAR that the capture lacks.
 void warn_of_packets(const BagSummary& summary, std::vector<ReadingWarning>& warnings) {
   if (summary.lost_packets < kFewLostPackets) return;
@@ -254,6 +264,7 @@ Result<RecordingPlan> plan_recording(MessageSource& bag, const RecordingConfig& 
   plan->start = survey.start(bag.summary());
   warn_of_recorders(bag.summary(), plan->setup.warnings);
   warn_of_packets(bag.summary(), plan->setup.warnings);
+  warn_of_single_legs(bag, plan->setup);
   if (plan->setup.has_joints && !legs_are_known) warn_of_legs(bag, plan->setup);
   return plan;
 }

@@ -55,6 +55,7 @@ struct RecordingReader::Impl {
         channels(std::move(chosen)),
         plan(std::move(decided)),
         config(configured),
+        turns(plan.cloud.parts, plan.cloud.period),
         legs(plan.legs),
         contact_detector(plan.contacts.thresholds) {
     for (const auto& [topic, period] : plan.repeat_period) repeats.emplace(topic, period);
@@ -74,6 +75,7 @@ struct RecordingReader::Impl {
   void note_frame(Role role, const MessageView& view);
   void take(const Channel& channel, const MessageView& view, std::vector<Delivery>& out);
   void watch_frame(const MessageView& view);
+  std::optional<LidarScan> read_scan(const PointTable& table);
   void take_cloud(const MessageView& view, std::vector<Delivery>& out);
   void take_imu(const MessageView& view, std::vector<Delivery>& out);
   void take_legs(const Channel& channel, const MessageView& view, std::vector<Delivery>& out);
@@ -96,6 +98,7 @@ struct RecordingReader::Impl {
   RecordingChannels channels;
   RecordingPlan plan;
   RecordingConfig config;
+  TurnJoiner turns;  ///< of clouds that are parts of scans
   LegStream legs;
   ContactDetector contact_detector;
   std::map<std::string, RepeatFilter> repeats;  ///< by topic
@@ -163,12 +166,24 @@ void RecordingReader::Impl::watch_frame(const MessageView& view) {
        WarnedSensor::kLidar});
 }
 
+/// The scan of a cloud, or the one that it completes as the last part.
+std::optional<LidarScan> RecordingReader::Impl::read_scan(const PointTable& table) {
+  if (plan.cloud.parts.count == 1) return read_cloud(table, plan.cloud, counts);
+  EventCounts of_part;
+  auto turn = turns.add(read_cloud(table, plan.cloud, of_part));
+  of_part.erase("cloud_empty");  // a part may see nothing
+  for (const auto& [what, times] : of_part) counts[what] += times;
+  return turn;
+}
+
 void RecordingReader::Impl::take_cloud(const MessageView& view, std::vector<Delivery>& out) {
   auto table = point_table(view);
   if (!table) return malformed(Role::kLidar);
   watch_frame(view);
   table->stamp = stamp_of(Role::kLidar, table->stamp, 0.0);
-  auto scan = std::make_shared<LidarScan>(read_cloud(*table, plan.cloud, counts));
+  auto read = read_scan(*table);
+  if (!read) return;
+  auto scan = std::make_shared<LidarScan>(std::move(*read));
   const Duration delay = from_seconds(config.lidar_delay);
   scan->stamp -= delay;
   scan->end -= delay;
@@ -224,6 +239,7 @@ void RecordingReader::Impl::take_contacts(const MessageView& view, std::vector<D
   const auto joints = plan.latency[static_cast<std::size_t>(Role::kJoints)];
   const Time stamp =
       recorded_stamp(view) ? header_stamp(view, record_time) : record_time - joints.value_or(0);
+  if (contact_detector.contradicts_sign(*loads)) ++counts["foot_loads_of_other_sign"];
   const ContactReading contacts = {stamp_of(Role::kContacts, stamp, config.leg_delay),
                                    contact_detector.detect(*loads), forces_at(view, plan.contacts)};
   deliver(legs.add_contacts(contacts, counts), out);
@@ -401,7 +417,7 @@ void RecordingReader::Impl::receive(const BagMessage& given, std::vector<Deliver
 
 /// Of the messages of a sensor; 0: not known.
 Duration RecordingReader::Impl::period_of(Role role) const {
-  if (role == Role::kLidar) return plan.cloud.period;
+  if (role == Role::kLidar) return plan.cloud.scan_period();
   const auto& rate = role == Role::kImu ? plan.setup.imu_rate_hz : plan.setup.leg_rate_hz;
   return rate && *rate > 0.0 ? from_seconds(1.0 / *rate) : 0;
 }

@@ -200,10 +200,12 @@ void RecordingSurvey::decide_force_unit(RecordingPlan& plan) {
 std::optional<double> RecordingSurvey::imu_rate(const RecordingPlan& plan) const {
   const Seen& imu = seen(Role::kImu);
   std::vector<Time> times = imu.stamps;
-  if (plan.stamped_by_record[static_cast<std::size_t>(Role::kImu)]) {
-    for (std::size_t i = 0; i < times.size(); ++i) times[i] += imu.latencies[i];
+  if (!plan.stamped_by_record[static_cast<std::size_t>(Role::kImu)]) {
+    return sample_rate(std::move(times));
   }
-  return sample_rate(std::move(times));
+  for (std::size_t i = 0; i < times.size(); ++i) times[i] += imu.latencies[i];
+  const auto in_batches = batched_rate(times);
+  return in_batches ? in_batches : sample_rate(std::move(times));
 }
 
 void RecordingSurvey::warn_of_rate(double rate) {
@@ -247,7 +249,7 @@ void RecordingSurvey::warn_of_gyro(const RecordingPlan& plan) {
   constexpr double kFewBeyond = 0.01;  // of them
   if (first_samples_.size() >= kLeast && !changes(&ImuSample::angular_velocity) &&
       changes(&ImuSample::specific_force)) {
-    const Eigen::Vector3d rate = first_samples_.front().angular_velocity;
+    const Eigen::Vector3d rate = first_samples_.front().angular_velocity.array() + 0.0;  // no -0
     notes_.warn("gyroscope does not measure",
                 fmt::format("angular velocity is ({:.3g}, {:.3g}, {:.3g}) in all {} samples while "
                             "the specific force changes: the gyro is off or not filled in",

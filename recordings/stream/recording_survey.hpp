@@ -95,6 +95,9 @@ class RecordingSurvey {
   void decide_stamps(RecordingPlan& plan);
   void decide_waits(RecordingPlan& plan) const;
   void decide_begin(RecordingPlan& plan);
+  std::map<Role, Duration> behind(const RecordingPlan& plan, const std::string& reference,
+                                  Duration latency) const;
+  bool warn_of_imu_clock(const std::map<Role, Duration>& behind, const std::string& reference);
   void warn_of_clocks(const RecordingPlan& plan, const std::string& reference, Duration latency);
   void warn_of_true_clock(const RecordingPlan& plan);
   void warn_of(WarnedSensor sensor, std::size_t first);

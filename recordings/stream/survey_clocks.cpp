@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What stamps and record times say of the clocks, and of samples that are sent again.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
+#include <ranges>
+#include <set>
 #include <span>
 #include <utility>
 
+#include "recordings/clouds/scan_period.hpp"
 #include "recordings/clouds/stamp_steps.hpp"
 #include "recordings/median.hpp"
 #include "recordings/stream/record_clock.hpp"
@@ -23,6 +27,7 @@ constexpr Duration kMaxLatencyDifference = kSecond / 4;
 constexpr Duration kMaxDisorder = kSecond / 5;
 constexpr Duration kLongestStep = 100'000 * kSecond;  ///< a day, as of a wrong date
 constexpr Duration kMaxBetween = kSecond;             ///< of the samples before and after a step
+constexpr Duration kMaxOwnLatency = kSecond;          ///< of a sensor on the recorder's clock
 constexpr std::size_t kFirst = 20;  ///< messages whose latency is that before a step
 
 bool stamps_stand(const std::vector<Time>& stamps) {
@@ -45,6 +50,28 @@ bool is_steady(const std::vector<Duration>& latencies) {
     return std::abs(latency - usual) > kMaxLatencyDifference / 2;
   });
   return static_cast<std::size_t>(odd) * 20 < latencies.size();
+}
+
+/// "recorded 0.002 s after its stamps".
+std::string recorded_text(Duration latency) {
+  return fmt::format("recorded {:.3f} s {} its stamps", std::abs(to_seconds(latency)),
+                     latency < 0 ? "before" : "after");
+}
+
+/// Which of two clocks the record times contradict.
+std::string odd_clock(const std::string& one, Duration latency, const std::string& other,
+                      Duration other_latency) {
+  const bool odd = std::abs(latency) > kMaxOwnLatency;
+  const bool other_odd = std::abs(other_latency) > kMaxOwnLatency;
+  if (odd && other_odd) return "neither clock is the recorder's";
+  if (!odd && !other_odd) return "their clocks differ";
+  return fmt::format("the clock of {} is off", odd ? one : other);
+}
+
+/// Of clocks that differ by as much as GPS from UTC.
+std::string_view gps_text(double ahead) {
+  constexpr double kGps = 18.0, kTolerance = 0.5;  // [s]
+  return std::abs(std::abs(ahead) - kGps) < kTolerance ? " (GPS is 18 s ahead of UTC)" : "";
 }
 
 /// Where configured delays differ by more, arrivals move with the stamps: estimators sort what
@@ -271,10 +298,15 @@ void RecordingSurvey::note_record_times(Role role, const std::string& topic) {
   if (std::ranges::count(stamps, 0) == std::ssize(stamps)) {
     return notes_.push_back(fmt::format("{}: stamps are all zero, record times are used", topic));
   }
-  notes_.warn(fmt::format("stamps of {} do not advance", topic),
-              fmt::format("{}: stamps do not advance from message to message (a clock that stands "
-                          "still, or whole seconds): record times are used",
-                          topic));
+  std::vector<Time> recorded = stamps;
+  for (std::size_t i = 0; i < recorded.size(); ++i) recorded[i] += seen(role).latencies[i];
+  const bool batched = batched_rate(std::move(recorded)).has_value();
+  notes_.warn(
+      fmt::format("stamps of {} do not advance", topic),
+      fmt::format("{}: stamps do not advance from message to message (a clock that stands "
+                  "still, or whole seconds): record times are used{}",
+                  topic,
+                  batched ? ", which come in batches: times within a batch are not known" : ""));
 }
 
 /// Clocks: stamps that were never set, and sensors with different clocks.
@@ -346,17 +378,27 @@ void RecordingSurvey::warn_of_true_clock(const RecordingPlan& plan) {
   const auto& sensors = imu ? imu : plan.latency[static_cast<std::size_t>(Role::kLidar)];
   if (!truth || !sensors || std::abs(*truth - *sensors) < kMost) return;
   const double ahead = to_seconds(*sensors - *truth);
+  const std::string& other = imu ? topics_.imu : topics_.lidar;
+  const auto& lidar = plan.latency[static_cast<std::size_t>(Role::kLidar)];
+  const bool imu_alone = imu && lidar && std::abs(*truth - *lidar) < kMost;
+  const std::string remedy =
+      imu_alone ? fmt::format("the LiDAR agrees with the truth: set recording.imu_delay={:.3f}",
+                              delay_of(config_, Role::kImu) - ahead)
+                : fmt::format("score with aims score --time-offset={:.3f}", ahead);
   notes_.warn(
-      "clock of the truth differs",
-      fmt::format("{}: by its record times the truth is stamped {:.3f} s {} the sensors: "
-                  "scores compare other instants, or none; if its clock differs (GPS is "
-                  "18 s ahead of UTC), score with aims score --time-offset={:.3f}",
-                  topics_.truth, std::abs(ahead), ahead > 0.0 ? "ahead of" : "behind", ahead));
+      "truth and sensors have different clocks",
+      fmt::format("by the record times the truth is stamped {:.3f} s {} the sensors: scores "
+                  "compare other instants, or none. {} is {}, {} is {}: {}{}; {}",
+                  std::abs(ahead), ahead > 0.0 ? "ahead of" : "behind", topics_.truth,
+                  recorded_text(*truth), other, recorded_text(*sensors),
+                  odd_clock(topics_.truth, *truth, other, *sensors), gps_text(ahead), remedy));
 }
 
-/// Warns of topics whose clock is not that of the reference.
-void RecordingSurvey::warn_of_clocks(const RecordingPlan& plan, const std::string& reference,
-                                     Duration latency) {
+/// By how much the stamps of other topics are behind those of the reference, by their record times.
+std::map<Role, Duration> RecordingSurvey::behind(const RecordingPlan& plan,
+                                                 const std::string& reference,
+                                                 Duration latency) const {
+  std::map<Role, Duration> result;
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     const Role role = static_cast<Role>(i);
     const std::string& topic = topic_of(topics_, role);
@@ -365,7 +407,38 @@ void RecordingSurvey::warn_of_clocks(const RecordingPlan& plan, const std::strin
     Duration behind = *plan.latency[i] + from_seconds(delay_of(config_, role)) - latency;
     // A cloud with the stamp of its start is complete, and sent, a period later.
     if (role == Role::kLidar && plan.cloud.stamp == CloudStamp::kStart) behind -= plan.cloud.period;
+    result[role] = behind;
+  }
+  return result;
+}
+
+/// Warns of an IMU on another clock than all other topics, which agree; whether it does.
+bool RecordingSurvey::warn_of_imu_clock(const std::map<Role, Duration>& behind,
+                                        const std::string& reference) {
+  std::set<std::string> others;
+  for (const auto& [role, each] : behind) others.insert(topic_of(topics_, role));
+  if (reference != topics_.imu || others.size() < 2) return false;
+  const auto [least, most] = std::ranges::minmax(behind | std::views::values);
+  const Duration middle = least + (most - least) / 2;
+  if (std::abs(middle) < kMaxLatencyDifference || most - least > kMaxLatencyDifference)
+    return false;
+  notes_.warn(
+      fmt::format("clocks of {} and all other topics differ", reference),
+      fmt::format("{}: stamps are {:.3f} s {} those of {}, which agree: set "
+                  "recording.imu_delay={:.3f} if its clock differs",
+                  reference, std::abs(to_seconds(middle)), middle > 0 ? "ahead of" : "behind",
+                  fmt::join(others, ", "), delay_of(config_, Role::kImu) + to_seconds(middle)));
+  return true;
+}
+
+/// Warns of topics whose clock is not that of the reference.
+void RecordingSurvey::warn_of_clocks(const RecordingPlan& plan, const std::string& reference,
+                                     Duration latency) {
+  const auto apart = behind(plan, reference, latency);
+  if (warn_of_imu_clock(apart, reference)) return;
+  for (const auto& [role, behind] : apart) {
     if (std::abs(behind) < kMaxLatencyDifference) continue;
+    const std::string& topic = topic_of(topics_, role);
     notes_.warn(fmt::format("clocks of {} and {} differ", topic, reference),
                 fmt::format("{}: stamps are {:.3f} s {} those of other topics: set "
                             "recording.{}_delay={:.3f} if their clocks differ",

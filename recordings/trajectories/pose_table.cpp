@@ -13,7 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/files/iso_time.hpp"
 #include "core/files/number_lines.hpp"
+#include "core/text.hpp"
 #include "recordings/trajectories/motive_header.hpp"
 #include "recordings/trajectories/pose_columns.hpp"
 
@@ -34,6 +36,11 @@ bool is_number_with_comma(std::string_view word) {
   std::string text(word);
   if (const std::size_t comma = text.find(','); comma != std::string::npos) text[comma] = '.';
   return parse_number(text, false).has_value();
+}
+
+/// A number, or a date and time.
+bool is_stamp(std::string_view word) {
+  return is_number_with_comma(word) || parse_iso_time(word).has_value();
 }
 
 /// The sign between the cells of a line; a blank for any number of blanks and tabs.
@@ -193,7 +200,9 @@ struct RowLayout {
 
   std::string row(const std::vector<std::string_view>& cells) const {
     std::string stamp = number(cells[columns.stamp]);
-    if (columns.nanoseconds) {
+    if (const auto date = parse_iso_time(cells[columns.stamp])) {
+      stamp = stamp_text(date->time);
+    } else if (columns.nanoseconds) {
       const std::string_view part = cells[*columns.nanoseconds];
       if (is_digits(part) && part.size() <= 9) stamp += fmt::format(".{:0>9}", part);
     } else {
@@ -260,11 +269,12 @@ class TableReader {
     const auto cells = cells_of(line, separator);
     if (!layout_ && motive_.take(cells)) return take_motive();
     const std::size_t stamp = named_ ? named_->stamp : 0;
-    const bool names = cells.size() >= std::max(kPositionColumns, stamp + 1) &&
-                       !is_number_with_comma(cells[stamp]);
+    const bool names =
+        cells.size() >= std::max(kPositionColumns, stamp + 1) && !is_stamp(cells[stamp]);
     if (!layout_ && names && !is_comment(line) && is_row(cells)) {
-      return failure(fmt::format("{}:{}: expected a number as stamp, found '{}'", name_, number_,
-                                 cells[stamp]));
+      return failure(fmt::format(
+          "{}:{}: expected a number, or a date as 2023-05-01T12:00:00.5Z, as stamp, found '{}'",
+          name_, number_, cells[stamp]));
     }
     if (is_comment(line) || (!layout_ && names)) {
       if (!named_ && cells.size() >= kPositionColumns) take_header(cells, is_comment(line));
@@ -372,6 +382,7 @@ class TableReader {
                                      columns.unit == StampUnit::kMicroseconds ? "µs" : "ms"));
       }
     }
+    if (columns.stamp < cells.size()) note_date(cells[columns.stamp]);
     const bool seconds = decimals_of(columns.unit) == 0 && !columns.nanoseconds;
     layout_->decimals = seconds ? decimals_ : decimals_of(columns.unit);
     const std::size_t read = kPositionColumns + (columns.nanoseconds ? 1 : 0);
@@ -380,6 +391,13 @@ class TableReader {
                                    named_ ? "by their names" : "the first", read, cells.size()));
     }
     return {};
+  }
+
+  void note_date(std::string_view stamp) {
+    const auto date = parse_iso_time(stamp);
+    if (!date) return;
+    notes_.push_back(fmt::format("{}: stamps are dates (ISO 8601): read as seconds since 1970{}",
+                                 name_, date->has_zone ? "" : ", without a zone taken as UTC"));
   }
 
   tl::unexpected<Error> wrong_number(std::size_t found) const {

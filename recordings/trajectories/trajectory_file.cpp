@@ -11,6 +11,7 @@
 #include "core/files/text_file.hpp"
 #include "recordings/source/recording_file.hpp"
 #include "recordings/trajectories/bag_trajectory.hpp"
+#include "recordings/trajectories/missing_numbers.hpp"
 #include "recordings/trajectories/pose_cleaning.hpp"
 #include "recordings/trajectories/pose_table.hpp"
 
@@ -112,10 +113,11 @@ Result<TrajectoryFile> read_text(const fs::path& file, const TrajectoryFileOptio
   TrajectoryFile result;
   result.file = file;
   const bool table = is_pose_table(*text);
-  const auto lines_text = table
-                              ? tum_of_pose_table(*text, name, options.stamp_decimals, result.notes)
-                              : Result<std::string>(in_seconds(*text, options.stamp_decimals));
+  auto lines_text = table ? tum_of_pose_table(*text, name, options.stamp_decimals, result.notes)
+                          : Result<std::string>(in_seconds(*text, options.stamp_decimals));
   if (!lines_text) return tl::unexpected(lines_text.error());
+  lines_text = with_stamps(*lines_text, name, result.notes);
+  note_missing_numbers(*lines_text, name, result.notes);
   LineReader lines(*lines_text, name);
   const auto first = lines.next();
   if (!first) {

@@ -117,6 +117,41 @@ TEST_F(EstimateHealth, AGyroThatLidarOdometryContradictsIsAWarning) {
   }
 }
 
+TEST_F(EstimateHealth, RangesThatLeaveMostReturnsOutAreAWarning) {
+  const Outcome outcome = aims(
+      "estimate walk.bag --estimators lio --set estimators.lio.lidar.max_range=1 --no-pictures "
+      "--no-page --quiet --out out");
+  EXPECT_TRUE(holds(outcome,
+                    "lio: in 100 % of the scans more than half of the returns are farther than "
+                    "lidar.max_range and left out"))
+      << outcome.output;
+  EXPECT_TRUE(holds(outcome, "most returns are out of range")) << "in the health" << outcome.output;
+}
+
+TEST_F(EstimateHealth, OfTooShortARecordingThatIsSaid) {
+  const auto whole = folder_.path() / "walk.bag";
+  auto reader = RecordingReader::open(whole, {});
+  ASSERT_TRUE(reader) << reader.error().message;
+  auto writer = RecordingWriter::create(folder_.path() / "short.bag", reader->setup().rig, "");
+  ASSERT_TRUE(writer) << writer.error().message;
+  std::vector<Delivery> deliveries;
+  ASSERT_TRUE(reader->advance(kSecond / 2, deliveries));
+  for (const Delivery& each : deliveries) {
+    if (const auto* imu = std::get_if<ImuSample>(&each.measurement)) {
+      ASSERT_TRUE(writer->write_imu(ImuOutput::kMain, each.arrival, *imu));
+    } else if (const auto* scan = std::get_if<LidarScanPtr>(&each.measurement)) {
+      ASSERT_TRUE(writer->write_scan(each.arrival, **scan));
+    }
+  }
+  ASSERT_TRUE(writer->close());
+  const Outcome outcome =
+      aims("estimate short.bag --estimators lio --no-pictures --no-page --quiet --out out");
+  EXPECT_TRUE(holds(outcome, "health: lio: too short: ")) << outcome.output;
+  EXPECT_TRUE(holds(outcome, "warning: too short: ")) << outcome.output;
+  EXPECT_FALSE(holds(outcome, "never started")) << outcome.output;
+  EXPECT_TRUE(holds(aims("info short.bag"), "warning: too short: "));
+}
+
 TEST_F(EstimateHealth, AnEstimateWithoutPosesIsNoSuccess) {
   write_changed("useless.bag", [](ImuSample& imu) {
     imu.specific_force.setConstant(std::numeric_limits<double>::quiet_NaN());

@@ -50,6 +50,13 @@ TEST(Text, AMessageIsOneLineOfBoundedLength) {
   EXPECT_TRUE(shown.ends_with("word last"));
 }
 
+TEST(DecimalText, WhatRoundsToZeroHasNoSign) {
+  EXPECT_EQ(decimal_text(-0.0, 0), "0");
+  EXPECT_EQ(decimal_text(-0.004, 2), "0.00");
+  EXPECT_EQ(decimal_text(-0.006, 2), "-0.01");
+  EXPECT_EQ(decimal_text(-10.0, 0), "-10");
+}
+
 RC_GTEST_PROP(TextOfAnyBytes, IsValidAndOfAMessageOneLine, (const std::string& bytes)) {
   const std::string text = utf8_text(bytes);
   RC_ASSERT(utf8_text(text) == text);

@@ -67,9 +67,9 @@ class Table(Walk):
         self.put("bad.csv", "t,wx,wy,wz,ax,ay,az\n1,0,0,0,0,0,9.8\n0.5,0,0,0,0,0,9.8\n")
         columns = "gyro: [wx, wy, wz]\naccelerometer: [ax, ay, {}]\n"
         self.refuse_table(self.put("a.yaml", "file: bad.csv\ntime: t\n" + columns.format("az")),
-                    "bad.csv: row 2: expected a time >= 1000000000 ns, found '0.5'")
+                    "bad.csv:3: t: expected a time >= 1000000000 ns, found '0.5'")
         self.refuse_table(self.put("b.yaml", "file: bad.csv\ntime: t\ntime_unit: s\n" +
-                             columns.format("a_z")), "bad.csv: row 2")
+                             columns.format("a_z")), "bad.csv:3: t: ")
         self.put("bad.csv", "t,wx,wy,wz,ax,ay,az\n1,0,0,0,0,0,9.8\n2,0,0,0,0,0,9.8\n")
         self.refuse_table(self.put("c.yaml", "file: bad.csv\ntime: t\n" + columns.format("a_z")),
                     "bad.csv: expected a column 'a_z', which the mapping names")

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <numbers>
 
@@ -88,6 +89,36 @@ class ScoringInputs : public ::testing::Test {
 
   TemporaryFolder folder_;
 };
+
+TEST_F(ScoringInputs, NumbersOfFramesTakeTheStampsOfTheirFile) {
+  const Trajectory truth = bend();
+  Trajectory frames = truth;
+  frames.resize(truth.size() - 3);  // it ended early
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    frames[i].stamp = static_cast<Time>(i) * kSecond;
+  }
+  ScoringRequest request;
+  request.truth = file("truth.tum", tum_text(truth));
+  request.estimates = {file("frames.txt", tum_text(frames))};
+  request.times = file("times.txt", times_text(truth));
+  const auto input = read_scoring_input(request);
+  ASSERT_TRUE(input) << input.error().message;
+  EXPECT_EQ(input->estimates[0].trajectory.back().stamp, truth[frames.size() - 1].stamp);
+  EXPECT_NE(input->notes.at(0).find("its stamps are numbers of frames"), std::string::npos);
+  request.times = file("few.txt", "0\n0.1\n0.2\n");
+  EXPECT_NE(message_of(request).find("has a pose of frame 97, but"), std::string::npos)
+      << message_of(request);
+}
+
+TEST_F(ScoringInputs, OfADamagedRecordingACopyIsAdvised) {
+  ScoringRequest request;
+  request.truth = bag(bend());
+  request.estimates = {file("e.tum", tum_text(bend()))};
+  std::filesystem::resize_file(request.truth, std::filesystem::file_size(request.truth) - 100);
+  EXPECT_NE(message_of(request).find("(aims convert IN --recover --out COPY; then score the copy)"),
+            std::string::npos)
+      << message_of(request);
+}
 
 TEST_F(ScoringInputs, WaypointTimesOfARunAreScoredOverItsScenariosSegments) {
   // As on the garage: from a to d and from d to h, past the points between.

@@ -34,6 +34,12 @@ TEST(HealthSummary, TextNamesStatesAndTheLongestReasonFirst) {
   EXPECT_EQ(text_of(health_summary({})), "");  // a system that does not judge itself
 }
 
+TEST(HealthSummary, OfTooShortARecordingSaysThatAlone) {
+  HealthSummary summary = health_summary({{0, HealthState::kStarting, {}, 0.0}});
+  summary.too_short = "too short: 3 scans over 0.3 s";
+  EXPECT_EQ(text_of(summary), "too short: 3 scans over 0.3 s");
+}
+
 TEST(HealthSummary, LinesNameTheEstimatorsThatWereNotHealthy) {
   RunRecord run{3, {}};
   run.scores["estimators"]["lio"]["health"] = health_json(health_summary(rows()));

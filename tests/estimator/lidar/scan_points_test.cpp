@@ -56,6 +56,21 @@ bool contains_all(const std::vector<Eigen::Vector3f>& many,
       few, [&](const Eigen::Vector3f& p) { return std::ranges::find(many, p) != many.end(); });
 }
 
+TEST(ScanPoints, TellWhichLimitLeavesMostReturnsOut) {
+  const auto left_out = [](double min_range, double max_range) {
+    LidarUpdateConfig lidar;
+    lidar.min_range = min_range;
+    lidar.max_range = max_range;
+    ScanPoints points(lidar, {}, kT_body_lidar.translation);
+    const LidarScan scan = scan_at(0);
+    points.prepare(scan, standing(), {});
+    return points.left_out(scan);
+  };
+  EXPECT_EQ(left_out(0.3, 120.0), LeftOutByRange::kFew);
+  EXPECT_EQ(left_out(0.3, 2.0), LeftOutByRange::kTooFar);
+  EXPECT_EQ(left_out(4.0, 120.0), LeftOutByRange::kTooNear);
+}
+
 TEST(ScanPoints, AreInBodyAxes) {
   ScanPoints points = points_with(0.25, 0.1);
   points.prepare(scan_at(0), standing(), Pose());

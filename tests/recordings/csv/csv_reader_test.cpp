@@ -157,6 +157,16 @@ TEST_F(CsvTable, TablesOfOtherToolsAreReadAsTheyAre) {
   }
 }
 
+TEST_F(CsvTable, TimesMayBeDates) {
+  const std::string table =
+      "time,wx,wy,wz,ax,ay,az\n2023-11-14T22:13:20Z,0,0,0,0,0,9.8\n"
+      "2023-11-14T22:13:20.01Z,0,0,0,0,0,9.8\n";
+  auto reader = open(kImu, table);
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_EQ(reader->summary().start, 1'700'000'000 * kSecond);
+  EXPECT_EQ(reader->summary().end, reader->summary().start + kSecond / 100);
+}
+
 TEST_F(CsvTable, RecoveryLeavesAnIncompleteLastRowOut) {
   const std::string table = "time,wx,wy,wz,ax,ay,az\n1,0,0,0,0,0,9.8\n2,0,0,0,0";
   EXPECT_EQ(refusal(kImu, table),
@@ -170,11 +180,15 @@ TEST_F(CsvTable, RefusesWhatIsMalformed) {
   const std::string header = "time,wx,wy,wz,ax,ay,az\n";
   const std::string row = "1,0,0,0,0,0,9.8\n";
   EXPECT_EQ(refusal(kImu, header + row + "0.5,0,0,0,0,0,9.8\n"),
-            "t.csv: row 2: expected a time >= 1000000000 ns, found '0.5'");
+            "t.csv:3: time: expected a time >= 1000000000 ns, found '0.5'");
   EXPECT_EQ(refusal(kImu, header + "soon,0,0,0,0,0,9.8\n"),
-            "t.csv: row 1: expected a time >= 0 ns, found 'soon'");
+            "t.csv:2: time: expected a time >= 0 ns, found 'soon'");
   EXPECT_EQ(refusal(kImu, header + "-1,0,0,0,0,0,9.8\n"),
-            "t.csv: row 1: expected a time >= 0 ns, found '-1'");
+            "t.csv:2: time: expected a time >= 0 ns, found '-1'");
+  EXPECT_EQ(refusal(kImu, header + row + "nan,0,0,0,0,0,9.8\n"),
+            "t.csv:3: time: expected a time >= 1000000000 ns, found NaN ('nan')");
+  EXPECT_EQ(refusal(kImu, header + row + ",0,0,0,0,0,9.8\n"),
+            "t.csv:3: time: expected a time >= 1000000000 ns, found an empty cell");
   EXPECT_EQ(refusal(kImu, header + row + "2,0,up,0,0,0,9.8\n"),
             "t.csv:3: wy: expected a number, found 'up'");
   EXPECT_EQ(refusal(kImu, header + row + "2,0,0\n"),

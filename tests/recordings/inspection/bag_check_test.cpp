@@ -27,6 +27,7 @@ TopicInfo topic(const std::string& name, const std::string& type, double hz) {
 /// A bag that every system takes.
 BagInfo good_bag() {
   BagInfo bag;
+  bag.summary.end = 60 * kSecond;
   bag.topics = {
       topic("/imu", "sensor_msgs/Imu", 200.0), topic("/joints", "sensor_msgs/JointState", 200.0),
       topic("/odom", "nav_msgs/Odometry", 200.0), topic("/points", "sensor_msgs/PointCloud2", 10.0),

@@ -62,5 +62,37 @@ TEST(BagWarnings, AnImuOfAHundredHertzThatMeasuresALittleLessIsFastEnough) {
   EXPECT_EQ(advices(info, "/imu: 62 Hz; footfalls alias"), 1U);
 }
 
+TEST(BagWarnings, DelaysHaveNoNegativeZeros) {
+  EXPECT_EQ(advices(recording(0.3, 0.3, -1e-9), "/odom 0.000 s: their clocks may differ"), 1U);
+}
+
+TEST(BagWarnings, BatchesThatShareAStampAreNamed) {
+  BagInfo info = recording(0.0, 0.1, 0.0);
+  info.topics[0].repeated = 900;
+  EXPECT_EQ(advices(info, "/imu: 900 stamps repeat"), 1U);
+  info.topics[0].messages_per_stamp = 10.0;
+  info.topics[0].rate_hz = 200.0;
+  info.topics[0].largest_gap_s = 0.055;
+  EXPECT_EQ(advices(info,
+                    "/imu: comes in batches of about 10 messages with one stamp: 200.0 Hz, but "
+                    "20.0 stamps a second; record times serve in their place"),
+            1U);
+  EXPECT_EQ(advices(info, "stamps repeat"), 0U);
+  EXPECT_EQ(advices(info, "/imu: a gap"), 0U);
+}
+
+TEST(BagWarnings, OfTooShortARecordingThatIsSaidAndNoLackOfStanding) {
+  BagInfo info = recording(0.0, 0.1, 0.0);
+  info.imus.emplace_back().topic = "/imu";
+  info.topics[1].messages = 7;
+  info.summary.end = 700 * kMillisecond;
+  EXPECT_EQ(advices(info, "too short: 7 scans over 0.7 s"), 1U);
+  EXPECT_EQ(advices(info, "is not static"), 0U);
+  info.topics[1].messages = 100;
+  info.summary.end = 10 * kSecond;
+  EXPECT_EQ(advices(info, "too short"), 0U);
+  EXPECT_EQ(advices(info, "is not static"), 1U);
+}
+
 }  // namespace
 }  // namespace aims

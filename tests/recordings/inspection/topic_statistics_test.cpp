@@ -45,6 +45,18 @@ TEST(TopicStatistics, CountsStampsThatRepeatOrGoBackwards) {
   EXPECT_EQ(info.backwards, 1U);
 }
 
+TEST(TopicStatistics, BatchesThatShareAStampHaveTheRateOfTheirMessages) {
+  TopicStatistics statistics;
+  for (int i = 0; i < 1000; ++i) {
+    const Time stamp = (i / 10) * 10 * kPeriod;
+    statistics.add(stamp + kMillisecond, stamp);
+  }
+  const TopicInfo info = info_of(statistics);
+  EXPECT_NEAR(info.rate_hz.value(), 200.0, 0.01);
+  EXPECT_NEAR(info.messages_per_stamp.value(), 10.0, 1e-9);
+  EXPECT_EQ(info.repeated, 900U);
+}
+
 TEST(TopicStatistics, MeasuresTheRecordingDelay) {
   TopicStatistics statistics;
   for (int i = 0; i < 101; ++i) {

@@ -235,6 +235,24 @@ TEST_F(Rosbag2, AFolderIsARecordingByItsMetadata) {
   fs::remove(path("r/metadata.yaml"));
   EXPECT_NE(read(path("r")).error.find("was never completed; --recover reads"), std::string::npos);
   EXPECT_EQ(read(path("r"), {.recover = true}).messages, few_messages());
+  fs::resize_file(path("r/r_0.db3"), 512);
+  const std::string error = read(path("r")).error;
+  EXPECT_NE(error.find("was never completed; none of its files can be read"), std::string::npos)
+      << error;
+}
+
+TEST_F(Rosbag2, EncryptedAndPackedFilesAreNamedAsSuch) {
+  for (const auto& [start, words] :
+       {std::pair("Salted__abcdefgh", "the file is encrypted: decrypt it first"),
+        {"age-encryption.org/v1\n-> X25519", "the file is encrypted"},
+        {"\x28\xb5\x2f\xfd packed", "unpack it with unzstd"},
+        {"7z\xbc\xaf\x27\x1c", "unpack it with 7z x"}}) {
+    std::ofstream(path("x.bag"), std::ios::binary) << start;
+    const auto refused = open_recording(path("x.bag"));
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find(words), std::string::npos) << refused.error().message;
+    EXPECT_EQ(refused.error().message.find("--recover"), std::string::npos);
+  }
 }
 
 TEST(YamlScalars, AreNamedByTheirPlaceAndBounded) {

@@ -113,6 +113,18 @@ TEST_F(AssumedInputs, AnImuWhoseBatchesShareAStampHasTheRateOfItsRecordTimes) {
   EXPECT_FALSE(warns(setup, "IMU of 5 Hz"));
 }
 
+TEST_F(AssumedInputs, AnImuInBatchesHasTheRateOfItsSamples) {
+  for (const Duration within : {Duration{0}, Duration{20'000}}) {
+    const auto setup = with_imu(500, [within](int k, ImuSample& sample) {
+      sample.stamp = kStart + (k / 10) * kSecond / 5;
+      return (k / 10) * kSecond / 5 + kSecond / 5 + k % 10 * within;
+    });
+    EXPECT_NEAR(setup.imu_rate_hz.value_or(0.0), 50.0, 1.1) << within;
+    EXPECT_TRUE(warns(setup, "which come in batches: times within a batch are not known"));
+    EXPECT_FALSE(warns(setup, " Hz by its stamps"));
+  }
+}
+
 TEST_F(AssumedInputs, SpikesOfAGyroAreNotDegreesPerSecond) {
   const auto setup = with_imu(500, [](int k, ImuSample& sample) {
     sample.angular_velocity = {k % 200 == 100 ? 300.0 : 0.01 * (k % 3), 0.0, 0.0};
@@ -150,7 +162,29 @@ TEST_F(AssumedInputs, ATruthOfAnotherClockIsAWarning) {
     robot.close();
     const Recording read = test::read_recording(bag(), {});
     EXPECT_EQ(warns(read.setup, "the truth is stamped 18.001 s ahead of the sensors"), ahead > 0);
+    EXPECT_EQ(warns(read.setup, "the clock of /ground_truth/imu is off (GPS is"), ahead > 0);
   }
+}
+
+TEST_F(AssumedInputs, OfTruthAndImuTheOneIsNamedThatTheRecordTimesContradict) {
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  robot.add_clouds(kStart, 10);
+  for (int k = 0; k < 100; ++k) {
+    const Time now = kStart + k * 20 * kMillisecond;
+    ImuSample sample;
+    sample.stamp = now + 18 * kSecond;
+    sample.specific_force.z() = 9.81;
+    robot.add("/imu", imu_type(), now, imu_message({0, sample.stamp, "imu"}, sample));
+    robot.add("/ground_truth/imu", odometry_type(), now,
+              odometry_message({0, now, "world"}, "imu", {}));
+  }
+  robot.close();
+  const RecordingSetup setup = test::read_recording(bag(), {}).setup;
+  EXPECT_TRUE(
+      warns(setup, "/imu is recorded 18.000 s before its stamps: the clock of /imu is off"));
+  EXPECT_TRUE(warns(setup, "set recording.imu_delay=18.000"));
+  EXPECT_FALSE(warns(setup, "--time-offset"));
 }
 
 TEST_F(AssumedInputs, FramesThatAreNoneOfASensorAreWarnings) {

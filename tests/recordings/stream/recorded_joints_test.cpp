@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/leg_kinematics.hpp"
+#include "recordings/legs/contact_detector.hpp"
 #include "recordings/messages/message_types.hpp"
 #include "tests/recordings/legs/trot.hpp"
 #include "tests/recordings/stream/recorded_deliveries.hpp"
@@ -70,7 +71,8 @@ TEST_F(RecordedJoints, KneeTorquesReplaceContacts) {
   EXPECT_EQ(legs[0].contact, (std::array<bool, 4>{false, true, true, false}));
   const LegMotion right{{0.0, 0.8, -1.6}, Eigen::Vector3d::Constant(0.2), Eigen::Vector3d::Zero()};
   const LegMotion left{{0.0, 0.8, -1.6}, Eigen::Vector3d::Constant(0.3), Eigen::Vector3d::Zero()};
-  const Eigen::Vector3d expected = (velocity_from_foot(1, right, kGo1) + velocity_from_foot(2, left, kGo1)) / 2.0;
+  const Eigen::Vector3d expected =
+      (velocity_from_foot(1, right, kGo1) + velocity_from_foot(2, left, kGo1)) / 2.0;
   EXPECT_LT((legs[0].linear_velocity - expected).norm(), 1e-12);
 }
 
@@ -100,7 +102,9 @@ struct TrotOptions {
   bool forces = true;
   double knee_sign = 1.0;
   float load = 60.0F;  ///< of a foot that stands
-  int lost = 0;        ///< of so many messages of the joints one
+  float lifted = 0.0F;
+  bool single = false;  ///< each leg has a topic of its own
+  int lost = 0;         ///< of so many messages of the joints one
 };
 
 MessageBytes trot_joints(Time stamp, const test::Trot& trot, double time,
@@ -156,11 +160,19 @@ class RecordedTrot : public test::RecordingTest {
         message.put(std::uint32_t{0});
         message.length(std::size_t{kLegCount});
         for (const int leg : options.feet) {
-          message.put(trot.contact(time)[static_cast<std::size_t>(leg)] ? options.load : 0.0F);
+          message.put(trot.contact(time)[static_cast<std::size_t>(leg)] ? options.load
+                                                                        : options.lifted);
         }
         robot.add("/foot_forces", forces, now, message);
       }
       if (options.lost > 0 && k % options.lost == 2) continue;
+      if (options.single) {
+        for (const char* leg : {"/fl", "/fr", "/rl", "/rr"}) {
+          robot.add(std::string(leg) + "/joint_states", joint_state_type(), now,
+                    trot_joints(now, trot, time, options));
+        }
+        continue;
+      }
       robot.add("/joint_states", joint_state_type(), now, trot_joints(now, trot, time, options));
     }
     robot.close();
@@ -236,6 +248,48 @@ TEST_F(RecordedTrot, JointsOfWhichMessagesAreMissingAreNamedByTheirTopic) {
 TEST_F(RecordedTrot, KneesOfTheWrongSignAreNamedAtTheEnd) {
   EXPECT_FALSE(read({}).noted("below its hip"));
   EXPECT_TRUE(read({.knee_sign = -1.0}).noted("below its hip"));
+}
+
+TEST_F(RecordedTrot, LoadsOfTheReversedSignAreNamedAndRead) {
+  EXPECT_FALSE(read({}).noted("the reversed sign"));
+  const Recording reversed = read({.load = -60.0F});
+  EXPECT_TRUE(reversed.noted("/foot_forces: the loads of FL (-60 to 0), FR (-60 to 0)"));
+  EXPECT_NEAR(speed(reversed), test::Trot::kSpeed, 0.02);
+}
+
+TEST_F(RecordedTrot, LoadsWithANegativeOffsetAreNamedAndNoContacts) {
+  for (const auto& [load, lifted] : {std::pair(-60.0F, -120.0F), std::pair(30.0F, -30.0F)}) {
+    for (const auto detection : {ContactDetection::kThreshold, ContactDetection::kLearned}) {
+      RecordingConfig config;
+      config.contact_detection = detection;
+      const Recording offset = read({.load = load, .lifted = lifted}, config);
+      EXPECT_TRUE(offset.noted("the sensor has an offset; take it off in the driver"));
+      EXPECT_TRUE(test::legs_of(offset.deliveries).empty());
+    }
+  }
+}
+
+TEST_F(RecordedTrot, LoadsThatTurnNegativeLaterAreNoContacts) {
+  ContactDetector detector({{{20.0, 20.0, 1}, {20.0, 20.0, -1}, {20.0, 20.0}, {20.0, 20.0}}});
+  const FootLoads loads = {-60.0, 60.0, -60.0, 60.0};
+  EXPECT_EQ(detector.detect(loads), (std::array{false, false, true, true}));
+  EXPECT_TRUE(detector.contradicts_sign(loads));
+  EXPECT_FALSE(detector.contradicts_sign({60.0, -60.0, -60.0, -60.0}));
+}
+
+TEST_F(RecordedTrot, LegsOnTopicsOfTheirOwnAreNamed) {
+  const Recording single = read({.single = true});
+  EXPECT_FALSE(single.setup.has_legs);
+  EXPECT_TRUE(
+      single.noted("/fl/joint_states, /fr/joint_states, /rl/joint_states, "
+                   "/rr/joint_states (sensor_msgs/JointState) hold one leg each"));
+  EXPECT_NE(single.setup.leg_lack.find("hold one leg each"), std::string::npos);
+  EXPECT_FALSE(read({}).noted("one leg"));
+}
+
+TEST_F(RecordedTrot, LegsInMessagesOfTheirOwnAreNamed) {
+  const Recording one = read({.legs = {0, 0, 0, 0}});
+  EXPECT_TRUE(one.noted("each message holds the joints of one leg")) << one.error;
 }
 
 TEST_F(RecordedTrot, TorquesOfTheKneesBelowTheThresholdAreLearned) {

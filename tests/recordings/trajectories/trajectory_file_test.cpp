@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
 #include <optional>
@@ -211,12 +212,13 @@ TEST_F(TrajectoryFiles, UnusablePosesOfATruthAreLeftOutWithTheirCauses) {
   ASSERT_EQ(read->trajectory.size(), 2U);
   EXPECT_EQ(read->trajectory[1].stamp, 3 * kSecond);
   EXPECT_NEAR(read->trajectory[1].pose.rotation.norm(), 1.0, 1e-15);
-  ASSERT_EQ(read->notes.size(), 2U);
-  EXPECT_NE(read->notes[0].find("1 of 5 quaternions have norms of 0.992"), std::string::npos);
-  EXPECT_NE(read->notes[1].find("3 of 5 poses dropped: 1 not finite, 1 without a unit quaternion, "
+  ASSERT_EQ(read->notes.size(), 3U);
+  EXPECT_NE(read->notes[0].find("truth.txt:3: x is NaN"), std::string::npos) << read->notes[0];
+  EXPECT_NE(read->notes[1].find("1 of 5 quaternions have norms of 0.992"), std::string::npos);
+  EXPECT_NE(read->notes[2].find("3 of 5 poses dropped: 1 not finite, 1 without a unit quaternion, "
                                 "1 with the stamp of the one before"),
             std::string::npos)
-      << read->notes[1];
+      << read->notes[2];
 }
 
 TEST_F(TrajectoryFiles, TablesHaveWWhereTheirHeaderOrTheirStampsTell) {
@@ -522,11 +524,45 @@ TEST_F(TrajectoryFiles, StampsOfPandasAreReadOrNamed) {
     EXPECT_EQ(read->trajectory.at(0).stamp, 1'700'000'000 * kSecond) << stamp;
   }
   for (const char* header : {"t,x,y,z\n", ""}) {
-    const std::string text = std::string(header) + "2023-11-14 22:13:20.000000,1,2,3\n";
+    const std::string text = std::string(header) + "Tue Nov 14 22:13:20 2023,1,2,3\n";
     EXPECT_NE(message_of(file("p.csv", text))
-                  .find("expected a number as stamp, found '2023-11-14 22:13:20.000000'"),
+                  .find("expected a number, or a date as 2023-05-01T12:00:00.5Z, as stamp, found "
+                        "'Tue Nov 14 22:13:20 2023'"),
               std::string::npos)
         << message_of(file("p.csv", text));
+  }
+}
+
+TEST_F(TrajectoryFiles, DatesAreStamps) {
+  for (const char* text : {"t,x,y,z\n2023-11-14 22:13:20.125000,1,2,3\n",
+                           "2023-11-14T22:13:20.125Z,1,2,3\n", "2023-11-14T22:13:20.125Z 1 2 3\n",
+                           "time;x;y;z\n2023-11-14T23:13:20,125+01:00;1,0;2,0;3,0\n"}) {
+    const auto read = read_trajectory(file("p.csv", text), {});
+    ASSERT_TRUE(read) << text << read.error().message;
+    EXPECT_EQ(read->trajectory.at(0).stamp, 1'700'000'000 * kSecond + kSecond / 8) << text;
+    EXPECT_NE(read->notes.at(0).find("stamps are dates (ISO 8601)"), std::string::npos);
+  }
+}
+
+TEST_F(TrajectoryFiles, NumbersThatAreNoneAreNamedAndTheRestIsRead) {
+  const std::string tum =
+      "1 0 0 0 0 0 0 1\n2 0 nan 0 0 0 0 1\nnan 0 0 0 0 0 0 1\n4 0 0 0 0 0 0 1\n";
+  std::string table = tum;
+  std::ranges::replace(table, ' ', ',');
+  for (const std::string& text : {tum, "t,x,y,z,qx,qy,qz,qw\n" + table}) {
+    const int header = text == tum ? 0 : 1;
+    const auto read = read_trajectory(file("p.csv", text), {});
+    ASSERT_TRUE(read) << text << read.error().message;
+    EXPECT_EQ(read->trajectory.size(), 2U);
+    const auto noted = [&](const std::string& part) {
+      return std::ranges::any_of(read->notes, [&](const std::string& each) {
+        return each.find(part) != std::string::npos;
+      });
+    };
+    EXPECT_TRUE(noted("p.csv:" + std::to_string(3 + header) +
+                      ": the stamp is NaN (or an empty cell): 1 such line is left out"));
+    EXPECT_TRUE(noted("p.csv:" + std::to_string(2 + header) + ": y is NaN"));
+    EXPECT_TRUE(noted("1 of 3 poses dropped: 1 not finite"));
   }
 }
 
