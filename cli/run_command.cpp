@@ -73,6 +73,7 @@ void print_invalid_poses(const SuiteCase& each) {
 void draw(const std::vector<fs::path>& folders, const SharedOptions& shared) {
   DrawDisplay display(shared.quiet);
   for (const fs::path& folder : folders) {
+    if (!fs::exists(folder / "truth.tum")) continue;  // every estimator failed
     const auto drawn = draw_run(folder, display.observer(), shared.jobs);
     if (!drawn) print_out("warning: {}\n", drawn.error().message);
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/sweep_results.hpp"
 
+#include <algorithm>
+#include <string>
 #include <system_error>
 #include <vector>
 
@@ -54,7 +56,15 @@ void print_points(const MergedSweep& sweep, const Objective& objective) {
   for (const SweepResponse& each : *responses) incomplete += each.incomplete;
   if (incomplete > 0) print_out("{} points are not complete\n", incomplete);
   if (const std::string open = unstarted_text(sweep); !open.empty()) print_out("{}\n", open);
-  print_out("objective: {}\n\n", text_of(objective_for(objective, responses->front().table)));
+  std::vector<std::string> texts;
+  for (const SweepResponse& each : *responses) {
+    texts.push_back(text_of(objective_for(objective, each.table)));
+  }
+  const bool alike = std::ranges::count(texts, texts.front()) == std::ssize(texts);
+  for (std::size_t i = 0; i < (alike ? 1 : texts.size()); ++i) {
+    print_out("objective{}: {}\n", alike ? "" : " of " + (*responses)[i].estimator, texts[i]);
+  }
+  print_out("\n");
 }
 
 }  // namespace aims

@@ -320,7 +320,10 @@ Result<void> check_direction(const std::string& key, const std::string& score) {
 }
 
 Objective objective_for(Objective objective, const ResponseTable& table) {
-  objective.relative = objective.relative && !table.default_runs.empty();
+  objective.relative =
+      objective.relative && std::ranges::any_of(table.default_runs, [](const RunScore& run) {
+        return run.value.has_value();
+      });
   return objective;
 }
 

@@ -142,7 +142,7 @@ std::optional<double> gain_over(const std::optional<double>& defaults,
 /// Error, begun with `key`, for a score of which less is not better: objectives are minimized.
 Result<void> check_direction(const std::string& key, const std::string& score);
 
-/// The objective where the table has default runs, else the same of plain scores.
+/// The objective where a default run has a score, else the same of plain scores.
 Objective objective_for(Objective objective, const ResponseTable& table);
 
 }  // namespace aims

@@ -233,8 +233,9 @@ std::string response_markdown(const ResponseTable& table, const Objective& objec
                                : Result<Sensitivity>(failure(why_no_indices_of_one(effect)));
   std::string text =
       fmt::format("Objective: {}.\n{}", text_of(objective), best_markdown(table, objective, *best));
-  text += fmt::format("{}: {}.\n{}",
-                      effect.is_resolved() ? "Best values" : "Least objective, not resolved",
+  const bool outside = best->is_default() && !is_inside(table, table.defaults);
+  const bool known = effect.is_resolved() || outside;  // the effect is that of the ranges
+  text += fmt::format("{}: {}.\n{}", known ? "Best values" : "Least objective, not resolved",
                       text_of(*best, table), gain_markdown(*best));
   for (const std::string& line : left_out_lines(table)) text += fmt::format("- {}\n", line);
   for (const std::string& line : failed_lines(table)) text += fmt::format("- {}\n", line);

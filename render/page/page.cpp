@@ -49,7 +49,7 @@ Result<PageData> page_of(const fs::path& folder, const PageOptions& options) {
   }
   if (holds_tuning(folder)) return tuning_page(folder, options);
   if (holds_run(folder)) return run_page(folder);
-  if (!seed_folders(folder).empty()) return seeds_page(folder, options);
+  if (holds_seeds(folder)) return seeds_page(folder, options);
   return failure(
       fmt::format("{}: holds no results: expected scores.json (aims run, score), estimate.json "
                   "(aims estimate), "

@@ -87,6 +87,11 @@ std::vector<fs::path> seed_folders(const fs::path& folder) {
   return runs;
 }
 
+bool holds_seeds(const fs::path& folder) {
+  return std::ranges::any_of(folders_of_seeds(folder),
+                             [](const fs::path& each) { return fs::exists(each / "scores.json"); });
+}
+
 Result<PageData> seeds_page(const fs::path& folder, const PageOptions& options) {
   if (auto ok = check_links(folder); !ok) return tl::unexpected(ok.error());
   Json notes = Json::array();

@@ -182,7 +182,7 @@ test("over several seeds the sentence names median and worst, and separates by e
   const one = { success: true, signed: null, ate: 0.1, loss: null, aside: null, returns: null, healthy: false };
   const a = { ...one, name: "a", percent: 0.12, worst: 0.21 };
   assert.equal(page.finding([a, { ...one, name: "b", percent: 0.2, worst: 0.3 }], route),
-    "a and b both keep the corridor's length within 0.20 % in the median and 0.30 % at worst: these runs do not separate them.");
+    "a and b both keep the corridor's length within 0.20 % in the median and 0.30 % at worst: these runs do not separate them by it.");
   assert.equal(page.finding([a, { ...one, name: "b", percent: 0.2, worst: 0.62 }], route),
     "a and b keep the corridor's length within 0.20 % in the median and 0.62 % at worst.");
 });
@@ -190,7 +190,7 @@ test("over several seeds the sentence names median and worst, and separates by e
 test("where nothing differs the sentence says so", () => {
   const data = walk({ a: (x) => [1.0002 * x, 0], b: (x) => [1.0003 * x, 0] });
   const { list, route } = page.findingsOf(data);
-  assert.match(page.finding(list, route), /^a and b both keep the corridor's length within 0\.030 %: this run does not separate them\.$/);
+  assert.match(page.finding(list, route), /^a and b both keep the corridor's length within 0\.030 %: this run does not separate them by it\.$/);
   assert.equal(page.finding([], route), "");
 });
 

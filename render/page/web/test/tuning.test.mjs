@@ -41,6 +41,24 @@ test("the held-out verdict leads, and says when there is none", { skip }, async 
   assert.deepEqual(troubles, []);
 });
 
+test("the least of points that are not resolved is not called best", { skip }, async () => {
+  const data = tuning();
+  data.estimators[0].analyses[0].resolved = false;
+  const { page } = await pages.show(data);
+  assert.match(await page.locator("#best p").first().innerText(), /^Least objective, not resolved: degeneracy\.eta 6\.00/);
+});
+
+test("a Pareto front has the verdict on the front, whatever its first objective says", { skip }, async () => {
+  const data = { ...tuning(), source: "tune", front: "do not use them: none of the 3 points of the front is better than the defaults" };
+  data.estimators[0].analyses[0].held_out = { verdict: "use", text: "use them: 30 % better", sequences: 8, gain: 0.3, gain_interval: [0.2, 0.4], p: 0.01 };
+  const { page, troubles } = await pages.show(data);
+  const first = page.locator("#best p").first();
+  assert.equal(await first.getAttribute("data-verdict"), "do not use");
+  assert.match(await first.innerText(), /^Pareto front\. Verdict: do not use them/);
+  assert.doesNotMatch(await page.locator("#best").innerText(), /use them: 30 %/);
+  assert.deepEqual(troubles, []);
+});
+
 test("indices that a fit does not support are not resolved", { skip }, async () => {
   const data = tuning();
   Object.assign(data.estimators[0].analyses[0].sensitivity, { of_grid: false, has_indices: false, resolved: false, fit: { terms: 4, error: 0.3, explained: 0.65 } });

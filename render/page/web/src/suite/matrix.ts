@@ -261,5 +261,5 @@ export function matrixSection(data: SuitePayload): HTMLElement {
       choice("Scenarios", groupChoices(data), "", change("group")), search,
       tick("only with diverged runs", false, change("divergedOnly"))),
     place, shown,
-    h("p", { class: "soft" }, "Bold: best of the row. ✕ and hatching: runs without success, which diverged where no other reason is named; the value is over the runs that have one."));
+    h("p", { class: "soft" }, "Bold: best of the row of those whose estimates lack no part of a run. ✕ and hatching: runs without success, which diverged where no other reason is named; the value is over the runs that have one."));
 }

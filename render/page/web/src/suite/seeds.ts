@@ -54,7 +54,7 @@ function reasonText(data: SuitePayload, scenario: string, { name, summary }: Row
 }
 
 function table(data: SuitePayload, scenario: SuiteScenario): HTMLElement {
-  const invalid = new Set(runsOf(data, scenario.name).filter((run) => run.invalid).map((run) => run.seed));
+  const invalid = new Set<unknown>(runsOf(data, scenario.name).filter((run) => run.invalid).map((run) => run.seed));
   const failures = (data.suite.failures ?? [])
     .filter((each) => each.scenario === scenario.name && each.estimator && !invalid.has(each.seed));
   const failed = failures.flatMap((each) => each.estimator!.split(", "));
