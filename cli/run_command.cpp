@@ -55,20 +55,6 @@ void print_health(const SuiteCase& each) {
   }
 }
 
-/// A line per seed and estimator with poses that no score can take.
-void print_invalid_poses(const SuiteCase& each) {
-  for (const RunRecord& run : each.runs) {
-    for (const auto& [name, scores] : run.scores["estimators"].items()) {
-      const int invalid = value_in(scores, "poses_invalid", 0);
-      if (invalid == 0) continue;
-      print_out(
-          "warning: {} seed {}: {} of {} poses left out: not finite, not rigid, or more than 1000 "
-          "km from the origin\n",
-          name, run.seed, invalid, value_in(scores, "poses", 0));
-    }
-  }
-}
-
 /// Draws the runs; a picture that cannot be drawn is a warning: the results are there.
 void draw(const std::vector<fs::path>& folders, const SharedOptions& shared) {
   DrawDisplay display(shared.quiet);

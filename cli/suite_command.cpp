@@ -43,6 +43,7 @@ void print_scenarios(const Suite& suite) {
     print_out("{}\n", each.scenario.name);
     print_scores_table(score_table(each.runs), "suite.md");
     for (const std::string& line : failure_lines(each.runs)) print_out("no success: {}\n", line);
+    print_invalid_poses(each);
     print_out("\n");
     last = &each;
   }

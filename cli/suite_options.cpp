@@ -154,4 +154,18 @@ int exit_code_of(const char* command, const Result<int>& result) {
   return result ? *result : bad_input(command, result.error());
 }
 
+void print_invalid_poses(const SuiteCase& each) {
+  for (const RunRecord& run : each.runs) {
+    for (const auto& [name, scores] : run.scores["estimators"].items()) {
+      const int invalid = value_in(scores, "poses_invalid", 0);
+      if (invalid == 0) continue;
+      print_out(
+          "warning: {} {} seed {}: {} of {} poses left out: not finite, not rigid, or more than "
+          "1000 "
+          "km from the origin\n",
+          each.scenario.name, name, run.seed, invalid, value_in(scores, "poses", 0));
+    }
+  }
+}
+
 }  // namespace aims

@@ -67,4 +67,7 @@ Result<std::string> one_estimator(const SharedOptions& options, const std::strin
 /// The exit code of a command that came to an end; its error is printed as bad input.
 int exit_code_of(const char* command, const Result<int>& result);
 
+/// Prints a line per seed and estimator with poses that no score can take.
+void print_invalid_poses(const SuiteCase& each);
+
 }  // namespace aims

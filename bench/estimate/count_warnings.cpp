@@ -161,6 +161,19 @@ void warn_of_ranges(EstimateResult& result) {
   }
 }
 
+/// Notes poses that an estimator returned and that are none.
+void note_poses(EstimateResult& result) {
+  for (const EstimatorOutcome& each : result.estimators) {
+    const std::size_t invalid = each.result.invalid_poses.size();
+    if (invalid == 0) continue;
+    // A note: warnings stand in the health of every estimator.
+    result.setup.notes.push_back(
+        fmt::format("{}: {} of {} poses are not finite or not rigid: they are left out, and the "
+                    "estimate is no success",
+                    each.name, invalid, invalid + each.totals.poses));
+  }
+}
+
 /// Likewise of the clouds.
 void warn_of_clouds(EstimateResult& result) {
   constexpr double kFew = 0.05, kMany = 0.2;  // of the clouds
@@ -224,6 +237,7 @@ void warn_of_counts(EstimateResult& result) {
   warn_of_feet(result);
   warn_of_clouds(result);
   warn_of_ranges(result);
+  note_poses(result);
 }
 
 std::string warn_of_length(EstimateResult& result) {

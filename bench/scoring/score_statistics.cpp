@@ -30,6 +30,12 @@ std::vector<double> values_of(std::span<const RunRecord> runs, const std::string
 
 }  // namespace
 
+std::string part_mark(std::span<const RunRecord> runs, const std::string& estimator) {
+  const bool any =
+      std::ranges::any_of(runs, [&](const RunRecord& run) { return is_partial(run, estimator); });
+  return any ? " part" : "";
+}
+
 std::optional<double> worst_of(const std::vector<double>& values, const std::string& key) {
   if (values.empty()) return std::nullopt;
   if (better_of(key) == Better::kNeither) {  // of errors with a sign, the largest

@@ -26,6 +26,10 @@ struct ScoreStatistics {
 ScoreStatistics statistics_of(std::span<const RunRecord> runs, const std::string& estimator,
                               const std::string& key);
 
+/// " part" where of some run the estimate lacks a part (`is_partial`), so that statistics are of less
+/// than those of others; else nothing.
+std::string part_mark(std::span<const RunRecord> runs, const std::string& estimator);
+
 /// The largest value; the smallest of a score of which more is better.
 std::optional<double> worst_of(const std::vector<double>& values, const std::string& key);
 

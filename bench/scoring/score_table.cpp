@@ -94,8 +94,7 @@ ScoreStatistics statistics_in(std::span<const RunRecord> runs, const Row& row,
 
 /// Whether its scores are of all that those of others are: every run, from start to end.
 bool is_comparable(std::span<const RunRecord> runs, const Row& row) {
-  return std::ranges::none_of(runs,
-                              [&](const RunRecord& run) { return is_partial(run, row.estimator); });
+  return part_mark(runs, row.estimator).empty();
 }
 
 bool has_success(std::span<const RunRecord> runs, const Row& row) {
@@ -135,7 +134,7 @@ std::string cell(std::span<const RunRecord> runs, const Row& row, const Column& 
   if (success && best && *summary.median == *best && is_comparable(runs, row)) text += "*";
   const bool timing = is_timing(column.key);
   if (runs.size() > 1 && !success && !timing) text += " x";
-  if (!is_comparable(runs, row) && !timing) text += " part";
+  if (!timing) text += part_mark(runs, row.estimator);
   if (runs.size() == 1 && column.key == kSe3Key) text += spread_mark(runs.front(), row);
   return text;
 }

@@ -32,10 +32,12 @@ const TableColumns<PairedStatistics>& cell_columns() {
   return columns;
 }
 
-std::string paired_text(const PairedStatistics& cell, int digits) {
+/// "0.034 (x1), 3 of 7": where estimates lack parts of runs, over the others alone.
+std::string paired_text(const PairedStatistics& cell, int digits, std::size_t runs) {
   if (!cell.median) return "-";
   std::string text = fmt::format("{:.{}f}", *cell.median, digits);
   if (cell.ratio) text += fmt::format(" (x{:.3g})", *cell.ratio);
+  if (cell.count < runs) text += fmt::format(", {} of {}", cell.count, runs);
   return text;
 }
 
@@ -129,7 +131,7 @@ TextTable case_table(const AblationCase& each) {
   for (std::size_t i = 0; i < kAblationCount; ++i) {
     const Score& score = ablation_scores()[i];
     columns.push_back({"", title_with_unit(score), [i, digits = score.digits](const Row& row) {
-                         return paired_text(row.cells[i], digits);
+                         return paired_text(row.cells[i], digits, row.runs);
                        }});
   }
   add_success_columns(columns);

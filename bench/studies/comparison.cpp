@@ -146,12 +146,16 @@ void note_invalid(const char* side, const StoredResults& results, Comparison& co
 }
 
 /// Notes the estimates of one side that leave a part of the run out.
-void note_partial(const char* side, const StoredResults& results, Comparison& comparison) {
+void note_partial(const char* side, const StoredResults& results, const SeedsByName& others,
+                  Comparison& comparison) {
   const SeedsByName partial =
-      seeds_where(results, [](const RunRecord& run, const std::string& estimator) {
-        return is_partial(run, estimator) && !failed_in(run, estimator);
-      });
+      common(seeds_where(results,
+                         [](const RunRecord& run, const std::string& estimator) {
+                           return is_partial(run, estimator) && !failed_in(run, estimator);
+                         }),
+             others);
   for (const auto& [name, seeds] : partial) {
+    if (seeds.empty()) continue;
     comparison.partial.push_back(fmt::format("{}: {}, seed {}", side, name, fmt::join(seeds, ",")));
   }
 }
@@ -178,8 +182,8 @@ Comparison compare(const StoredResults& before, const StoredResults& after) {
   const SeedsByName failed_after = seeds_where(after, failed);
   comparison.fails_now = without(common(failed_after, seeds_before), failed_before);
   comparison.fails_no_more = without(common(failed_before, seeds_after), failed_after);
-  note_partial("before", before, comparison);
-  note_partial("after", after, comparison);
+  note_partial("before", before, seeds_after, comparison);
+  note_partial("after", after, seeds_before, comparison);
   return comparison;
 }
 

@@ -38,6 +38,7 @@ GroupScores scores_of(std::span<const RunRecord> runs, const std::string& estima
   const SuccessRate rate = success_rate(runs, estimator);
   scores.runs = rate.runs;
   scores.successes = rate.count;
+  scores.part = part_mark(runs, estimator);
   scores.strict = success_rate(runs, estimator, kStrictSuccessKey);
   for (const Score& score : headline_scores()) {
     scores.medians.push_back(statistics_of(runs, estimator, score.key).median);
@@ -155,7 +156,8 @@ TextTable groups_table(const std::vector<DrawnGroup>& groups) {
                                       each.strict.text()};
       for (std::size_t i = 0; i < kHeadlineCount; ++i) {
         row.push_back(
-            number_text(each.medians[i], fmt::format("{{:.{}f}}", headline_scores()[i].digits)));
+            number_text(each.medians[i], fmt::format("{{:.{}f}}", headline_scores()[i].digits)) +
+            (each.medians[i] ? each.part : ""));
       }
       table.rows.push_back(std::move(row));
     }

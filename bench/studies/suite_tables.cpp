@@ -40,7 +40,7 @@ std::string headline_cell(const SuiteCase& each, const std::string& estimator, c
   if (const std::size_t runs = finished(each.runs, estimator); summary.count < runs) {
     text += fmt::format(" ({} of {})", summary.count, runs);
   }
-  return text;
+  return text + part_mark(each.runs, estimator);
 }
 
 template <class Cell>

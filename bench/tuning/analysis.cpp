@@ -100,16 +100,22 @@ std::string text_of(const BestPoint& best, const ResponseTable& table) {
 
 Result<BestPoint> best_point(const ResponseTable& table, const Objective& objective) {
   if (objective.divergence_penalty > 0.0 && all_diverged(table)) {
-    return failure(
+    const bool scored = std::ranges::any_of(table.runs, [](const auto& runs) {
+      return std::ranges::any_of(runs, [](const RunScore& run) { return run.value.has_value(); });
+    });
+    return failure(fmt::format(
         "every run diverged or failed and counts the divergence penalty or more, so that no point "
-        "is better than another; a divergence penalty of 0 (aims merge FOLDER "
-        "--divergence-penalty 0) counts their scores");
+        "is better than another{}",
+        scored ? "; a divergence penalty of 0 (aims merge FOLDER --divergence-penalty 0) counts "
+                 "their scores"
+               : ""));
   }
   const auto all = cases_of(table, "");
   const auto point = least_point(table, objective, all);
   const bool any_point = std::ranges::any_of(table.points, [&, k = std::size_t{0}](auto&) mutable {
     return objective_at(table, objective, k++, all).has_value();
   });
+  if (all.empty()) return failure("no sequence has a valid run at every point");
   if (!point || !any_point) {
     return failure(
         fmt::format("none of {} points has a score '{}'", table.points.size(), objective.score));

@@ -110,11 +110,15 @@ std::optional<double> least_p(const Rows& rows, std::size_t seeds) {
   return p_of(aligned, seeds);
 }
 
-/// Cases on which every run diverged, so that all count the penalty.
+/// Cases on which every run diverged, some with a score, so that all count the penalty.
 std::size_t saturated_cases(const ResponseTable& table, const std::vector<std::size_t>& cases) {
+  const auto any = [&](std::size_t i, auto&& holds) {
+    return std::ranges::any_of(table.runs,
+                               [&](const auto& runs) { return i < runs.size() && holds(runs[i]); });
+  };
   return static_cast<std::size_t>(std::ranges::count_if(cases, [&](std::size_t i) {
-    return std::ranges::all_of(
-        table.runs, [i](const auto& runs) { return i < runs.size() && runs[i].diverged; });
+    return any(i, [](const RunScore& run) { return run.value.has_value(); }) &&
+           !any(i, [](const RunScore& run) { return !run.diverged; });
   }));
 }
 

@@ -51,17 +51,27 @@ bool is_valid(const std::vector<RunScore>& runs, std::size_t i) {
   return i < runs.size() && runs[i].invalid.empty();
 }
 
-/// Whether each point with a valid run has one on that case, so that all are compared on the same.
-bool is_common_case(const ResponseTable& table, std::size_t i) {
-  const auto lacks_it = [&](const std::vector<RunScore>& runs) {
-    return !runs.empty() && !is_valid(runs, i) &&
-           std::ranges::any_of(runs, [](const RunScore& run) { return run.invalid.empty(); });
-  };
-  const bool known = !table.default_runs.empty() || !table.runs.empty();
-  const bool any = is_valid(table.default_runs, i) ||
-                   std::ranges::any_of(table.runs, [&](auto& runs) { return is_valid(runs, i); });
-  return !known ||
-         (any && !lacks_it(table.default_runs) && std::ranges::none_of(table.runs, lacks_it));
+/// Per case, whether it is valid at each point that is valid on at least half of the cases on which
+/// any point is: points are compared on the same cases, and one at which the robot keeps falling is
+/// left out itself. Without runs all are.
+std::vector<bool> common_cases(const ResponseTable& table) {
+  std::vector<const std::vector<RunScore>*> points;
+  if (!table.default_runs.empty()) points.push_back(&table.default_runs);
+  for (const auto& runs : table.runs) points.push_back(&runs);
+  std::vector<bool> common(table.cases.size(), true);
+  std::vector<std::size_t> valid_points(table.cases.size(), 0);
+  for (const auto* runs : points) {
+    for (std::size_t i = 0; i < common.size(); ++i) valid_points[i] += is_valid(*runs, i) ? 1 : 0;
+  }
+  const auto known = static_cast<std::size_t>(
+      std::ranges::count_if(valid_points, [](std::size_t count) { return count > 0; }));
+  for (const auto* runs : points) {
+    std::size_t own = 0;
+    for (std::size_t i = 0; i < common.size(); ++i) own += is_valid(*runs, i) ? 1 : 0;
+    if (2 * own < known) continue;
+    for (std::size_t i = 0; i < common.size(); ++i) common[i] = common[i] && is_valid(*runs, i);
+  }
+  return common;
 }
 
 template <class Value>
@@ -173,10 +183,11 @@ std::optional<double> objective_value(const Objective& objective, std::span<cons
 }
 
 std::vector<std::size_t> cases_of(const ResponseTable& table, const std::string& family) {
+  const std::vector<bool> common = common_cases(table);
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < table.cases.size(); ++i) {
     if (!family.empty() && table.cases[i].family != family) continue;
-    if (is_common_case(table, i)) indices.push_back(i);
+    if (common[i]) indices.push_back(i);
   }
   return indices;
 }
@@ -251,8 +262,15 @@ std::vector<std::string> lines_of(const ResponseTable& table, const char* what,
 }  // namespace
 
 std::vector<std::string> left_out_lines(const ResponseTable& table) {
-  return lines_of(table, "are invalid and left out",
-                  [](const RunScore& run) -> const std::string& { return run.invalid; });
+  auto lines = lines_of(table, "are invalid and left out",
+                        [](const RunScore& run) -> const std::string& { return run.invalid; });
+  if (const std::size_t common = cases_of(table, "").size(); !lines.empty()) {
+    lines.push_back(fmt::format(
+        "points are compared on the {} of {} sequences on which each has a valid run, without "
+        "points that have one on fewer than half",
+        common, table.cases.size()));
+  }
+  return lines;
 }
 
 std::vector<std::string> failed_lines(const ResponseTable& table) {
@@ -299,6 +317,7 @@ std::optional<double> objective_at(const ResponseTable& table, const Objective& 
   std::vector<RunScore> runs;
   std::vector<RunScore> reference;
   for (const std::size_t i : cases) {
+    if (!all[i].invalid.empty()) return std::nullopt;  // others are valid there
     runs.push_back(all[i]);
     if (!table.default_runs.empty()) reference.push_back(table.default_runs[i]);
   }

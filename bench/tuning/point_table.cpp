@@ -42,7 +42,8 @@ PointSummary summary_of(const ResponseTable& table, const Objective& objective, 
   summary.is_default = of_defaults;
   summary.values = values_at(table, point);
   std::vector<double> scores;
-  for (const RunScore& run : runs) {
+  for (const std::size_t i : cases_of(table, "")) {
+    const RunScore& run = runs[i];
     if (run.value) scores.push_back(*run.value);
     if (run.diverged) ++summary.diverged;
     if (run.invalid.empty()) ++summary.runs;

@@ -43,9 +43,12 @@ TEST(InvalidRunsOfTuning, AreCountedPerSequence) {
   ResponseTable table;
   table.cases = {{"corridor", "corridor", 3}, {"garage", "garage", 1}};
   table.runs = {{fallen, {0.1}}, {{0.1}, {0.1}}};
-  EXPECT_EQ(left_out_lines(table),
-            std::vector<std::string>{"corridor seed 3: 1 of 2 runs are invalid and left out (the "
-                                     "robot fell at 1.2 s)"});
+  EXPECT_EQ(
+      left_out_lines(table),
+      (std::vector<std::string>{
+          "corridor seed 3: 1 of 2 runs are invalid and left out (the robot fell at 1.2 s)",
+          "points are compared on the 1 of 2 sequences on which each has a valid run, without "
+          "points that have one on fewer than half"}));
 }
 
 // Otherwise a point would look good by the easier seeds that it has left.
@@ -58,6 +61,10 @@ TEST(InvalidRunsOfTuning, AtOnePointTakeTheirSeedFromAllPoints) {
   table.points = {{0.0}, {0.5}, {1.0}};
   table.runs = {{{0.1}, {0.5}, {0.9}}, {{0.1}, {0.5}, fallen}, {fallen, fallen, fallen}};
   EXPECT_EQ(cases_of(table, ""), (std::vector<std::size_t>{0, 1}));
+  table.runs[1] = {{0.1}, fallen, fallen};
+  EXPECT_EQ(cases_of(table, "").size(), 3U) << "a point at which the robot keeps falling";
+  EXPECT_FALSE(objective_at(table, objective_for({}, table), 1, cases_of(table, "")));
+  table.runs[1] = {{0.1}, {0.5}, fallen};
   EXPECT_TRUE(effect_of(table, objective_for({}, table)).is_none());
 }
 
