@@ -86,7 +86,7 @@ int merge_command(const MergeArguments& arguments) {
   }
   print_out("{} of {} jobs done: {}, sweep.csv, sweep.md\n", sweep->count("done"),
             sweep->jobs.size(), (out / "sweep.sqlite").string());
-  if (holds_tuning(out)) write_pages_of(out, arguments.shared.quiet);
+  if (folders.size() == 1 && holds_tuning(out)) write_pages_of(out, arguments.shared.quiet);
   const std::size_t invalid = sweep->count("invalid");
   if (sweep->count("done") + invalid < sweep->jobs.size()) return kExpectationFailed;
   return invalid == 0 ? kOk : kInvalidRun;
@@ -105,7 +105,7 @@ void declare_merge(Command command, const fs::path& /*scenarios*/) {
                  "Value of a diverged run in the objective, of which the fraction of\n"
                  "diverged runs is added too (10)");
   command.footer(
-      "Writes sweep.sqlite, sweep.csv and sweep.md; in a folder of aims sweep the page too.\n"
+      "Writes sweep.sqlite, sweep.csv and sweep.md; of one folder the page too.\n"
       "Examples:\n"
       "  aims merge out/sweep\n"
       "  sqlite3 out/sweep/sweep.sqlite \"SELECT p.value, avg(s.value) FROM parameters p\n"

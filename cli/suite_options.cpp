@@ -161,8 +161,7 @@ void print_invalid_poses(const SuiteCase& each) {
       if (invalid == 0) continue;
       print_out(
           "warning: {} {} seed {}: {} of {} poses left out: not finite, not rigid, or more than "
-          "1000 "
-          "km from the origin\n",
+          "1000 km from the origin\n",
           each.scenario.name, name, run.seed, invalid, value_in(scores, "poses", 0));
     }
   }

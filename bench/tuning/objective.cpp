@@ -74,6 +74,19 @@ std::vector<bool> common_cases(const ResponseTable& table) {
   return common;
 }
 
+/// What scores on that case are relative to: the run of the defaults; where it was lost without a
+/// score, the median of the points that have one, so that their order stays.
+RunScore reference_at(const ResponseTable& table, std::size_t i) {
+  RunScore reference = table.default_runs[i];
+  if (reference.value || !reference.diverged) return reference;
+  std::vector<double> values;
+  for (const auto& runs : table.runs) {
+    if (i < runs.size() && runs[i].value && !runs[i].diverged) values.push_back(*runs[i].value);
+  }
+  reference.value = median(values);
+  return reference;
+}
+
 template <class Value>
 void append_new(std::vector<Value>& values, const Value& value) {
   if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
@@ -319,7 +332,7 @@ std::optional<double> objective_at(const ResponseTable& table, const Objective& 
   for (const std::size_t i : cases) {
     if (!all[i].invalid.empty()) return std::nullopt;  // others are valid there
     runs.push_back(all[i]);
-    if (!table.default_runs.empty()) reference.push_back(table.default_runs[i]);
+    if (!table.default_runs.empty()) reference.push_back(reference_at(table, i));
   }
   return objective_value(objective, runs, reference);
 }
@@ -339,10 +352,7 @@ Result<void> check_direction(const std::string& key, const std::string& score) {
 }
 
 Objective objective_for(Objective objective, const ResponseTable& table) {
-  objective.relative =
-      objective.relative && std::ranges::any_of(table.default_runs, [](const RunScore& run) {
-        return run.value.has_value();
-      });
+  objective.relative = objective.relative && !table.default_runs.empty();
   return objective;
 }
 

@@ -24,7 +24,9 @@ struct Objective {
   std::string score = "ate_yaw_m";  ///< dotted key of scores.json, e.g. "m_list_percent.all"
   ObjectiveStatistic statistic = ObjectiveStatistic::kMedian;
   double quantile = 0.9;  ///< for `kQuantile`, in (0, 1)
-  bool relative = true;   ///< each score over that of the defaults on the same sequence
+  /// Each score over that of the defaults on the same sequence; where these were lost without one,
+  /// over the median of the points.
+  bool relative = true;
   /// Value of a diverged run, and added times their fraction; 0: it counts by its score.
   double divergence_penalty = 10;
 };
@@ -142,7 +144,7 @@ std::optional<double> gain_over(const std::optional<double>& defaults,
 /// Error, begun with `key`, for a score of which less is not better: objectives are minimized.
 Result<void> check_direction(const std::string& key, const std::string& score);
 
-/// The objective where a default run has a score, else the same of plain scores.
+/// The objective where the table has default runs, else the same of plain scores.
 Objective objective_for(Objective objective, const ResponseTable& table);
 
 }  // namespace aims

@@ -86,6 +86,21 @@ TEST(InvalidRunsOfTuning, OfAWholeSeedLeaveTheOtherSeedsTheirTest) {
   EXPECT_TRUE(effect.is_resolved());
 }
 
+// Otherwise every success would count the same, and the order of the points would be chance.
+TEST(FailedRunsOfTuning, WhereTheDefaultsAreLostPointsAreRelativeToTheirMedian) {
+  ResponseTable table;
+  table.ranges = {{.key = "a", .low = 0.0, .high = 1.0}};
+  table.defaults = {0.5};
+  table.cases = {{"walk", "walk", 1}, {"walk", "walk", 2}};
+  table.default_runs = {{std::nullopt, true}, {std::nullopt, true}};
+  table.points = {{0.0}, {0.6}, {1.0}};
+  table.runs = {{{0.4}, {0.8}}, {{0.2}, {0.4}}, {{0.1}, {0.2}}};
+  const auto all = cases_of(table, "");
+  EXPECT_EQ(objective_at(table, Objective(), 0, all), 2.0);
+  EXPECT_EQ(objective_at(table, Objective(), 1, all), 1.0);
+  EXPECT_EQ(objective_at(table, Objective(), 2, all), 0.5);
+}
+
 // An optimizer that comes back to a point draws no new evidence: noise stays noise.
 TEST(FailedRunsOfTuning, RepeatedPointsAreNoFurtherEvidence) {
   ResponseTable table;

@@ -20,7 +20,7 @@ function verdict({ text: values, is_default: keeps }: Best, analysis: Analysis, 
   if (front) {
     const name = front.startsWith("use ") ? "use" : front.startsWith("undecided") ? "undecided" : "do-not-use";
     return h("div", {},
-      h("p", { class: `verdict ${name}`, "data-verdict": name.replaceAll("-", " ") }, h("strong", {}, "Pareto front."), ` Verdict: ${front}.`),
+      h("p", { class: `verdict ${name}`, "data-verdict": name.replaceAll("-", " ") }, h("strong", {}, "Pareto front."), ` Verdict: ${front}. Its points stand in tune.md.`),
       h("p", {}, keeps ? `In this objective alone the defaults are the best: ${values}.` : `Best in this objective alone: ${values}.`));
   }
   if (keeps) {
