@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bench/scoring/motion_offset.hpp"
 #include "bench/scoring/score_hints.hpp"
 #include "bench/scoring/start_anchor.hpp"
 #include "recordings/trajectories/pose_cleaning.hpp"
@@ -41,12 +42,21 @@ Result<void> check_overlap(const SourcedTrajectory& estimate, const SourcedTraje
                            stamp_unit_hint(estimate.trajectory, truth.trajectory)}) {
     if (hint) return failure(fmt::format("{}: {}", estimate.source, *hint));
   }
-  return failure(fmt::format(
-      "{}: its stamps, {}, do not overlap the truth's, {}: likely a clock "
-      "offset; if both began together, --time-offset {:.9f} makes it good, if both "
-      "ended together, {:.9f}",
-      estimate.source, span_text(span), span_text(truth.trajectory),
-      to_seconds(begin - first->stamp), to_seconds(truth.trajectory.back().stamp - last->stamp)));
+  const std::string apart =
+      fmt::format("{}: its stamps, {}, do not overlap the truth's, {}: likely a clock offset; ",
+                  estimate.source, span_text(span), span_text(truth.trajectory));
+  if (const auto offset = motion_offset(estimate.trajectory, truth.trajectory)) {
+    return failure(fmt::format(
+        "{}with --time-offset {:.2f} both stand and walk at the same times (their speeds correlate "
+        "by {:.2f})",
+        apart, offset->seconds, offset->correlation));
+  }
+  return failure(
+      fmt::format("{}if both began together, --time-offset {:.9f} makes it good, if both ended "
+                  "together, {:.9f} "
+                  "(an estimator whose first pose is late did not begin with the truth)",
+                  apart, to_seconds(begin - first->stamp),
+                  to_seconds(truth.trajectory.back().stamp - last->stamp)));
 }
 
 void move_near(SourcedTrajectory& each, std::vector<std::string>& notes) {

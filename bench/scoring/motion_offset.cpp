@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/scoring/motion_offset.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "bench/metrics/association.hpp"
+
+namespace aims {
+namespace {
+
+constexpr Duration kWindow = kSecond;     ///< that a speed is taken over
+constexpr Duration kGrid = kSecond / 10;  ///< at least
+constexpr Duration kOverlap = 5 * kSecond;
+constexpr Duration kBeside = 2 * kSecond;  ///< farther off, another offset is no part of the peak
+constexpr std::size_t kMostSpeeds = 2000;
+constexpr double kLeastCorrelation = 0.9;
+constexpr double kLeastLead = 0.05;       ///< in correlation, over other offsets
+constexpr double kLeastDeviation = 0.02;  ///< of the speeds [m/s]
+
+/// The speed over `kWindow` from each point of the grid on [m/s].
+std::vector<double> speeds_of(const Trajectory& poses, Duration grid) {
+  std::vector<double> speeds;
+  const Time end = poses.back().stamp - kWindow;
+  for (Time at = poses.front().stamp; at <= end; at += grid) {
+    const auto from = pose_at(poses, at);
+    const auto to = pose_at(poses, at + kWindow);
+    if (!from || !to) break;
+    speeds.push_back((to->translation - from->translation).norm() / to_seconds(kWindow));
+  }
+  return speeds;
+}
+
+/// The correlation of `a[i]` with `b[i + lag]` over what they have in common; 0 where either is
+/// nearly constant.
+double correlation_at(const std::vector<double>& a, const std::vector<double>& b,
+                      std::ptrdiff_t lag) {
+  const std::ptrdiff_t begin = std::max<std::ptrdiff_t>(0, -lag);
+  const std::ptrdiff_t end = std::min(std::ssize(a), std::ssize(b) - lag);
+  double sum_a = 0.0, sum_b = 0.0, aa = 0.0, bb = 0.0, ab = 0.0;
+  for (std::ptrdiff_t i = begin; i < end; ++i) {
+    const double x = a[static_cast<std::size_t>(i)];
+    const double y = b[static_cast<std::size_t>(i + lag)];
+    sum_a += x;
+    sum_b += y;
+    aa += x * x;
+    bb += y * y;
+    ab += x * y;
+  }
+  const auto count = static_cast<double>(end - begin);
+  const double variance_a = aa / count - sum_a * sum_a / (count * count);
+  const double variance_b = bb / count - sum_b * sum_b / (count * count);
+  const double least = kLeastDeviation * kLeastDeviation;
+  if (variance_a < least || variance_b < least) return 0.0;
+  return (ab / count - sum_a * sum_b / (count * count)) / std::sqrt(variance_a * variance_b);
+}
+
+/// Where the parabola through three values a step apart has its top, in steps from the middle one.
+double top_of(double before, double at, double after) {
+  const double curvature = before - 2.0 * at + after;
+  return curvature < 0.0 ? 0.5 * (before - after) / curvature : 0.0;
+}
+
+}  // namespace
+
+std::optional<MotionOffset> motion_offset(const Trajectory& estimate, const Trajectory& truth) {
+  const ValidPart valid_estimate(estimate), valid_truth(truth);
+  const Trajectory &poses = valid_estimate.poses(), &true_poses = valid_truth.poses();
+  if (poses.size() < 2 || true_poses.size() < 2) return std::nullopt;
+  const Duration longest = std::max(poses.back().stamp - poses.front().stamp,
+                                    true_poses.back().stamp - true_poses.front().stamp);
+  const Duration grid = std::max<Duration>(kGrid, longest / kMostSpeeds);
+  const std::vector<double> a = speeds_of(poses, grid), b = speeds_of(true_poses, grid);
+  const std::ptrdiff_t shorter = std::min(std::ssize(a), std::ssize(b));
+  const std::ptrdiff_t least = std::max<std::ptrdiff_t>(kOverlap / grid, shorter / 2);
+  const std::ptrdiff_t first = least - std::ssize(a), last = std::ssize(b) - least;
+  if (least > shorter || last - first < 2) return std::nullopt;
+  std::vector<double> by_lag;
+  for (std::ptrdiff_t lag = first; lag <= last; ++lag) by_lag.push_back(correlation_at(a, b, lag));
+  const auto peak = std::ranges::max_element(by_lag) - by_lag.begin();
+  const double best = by_lag[static_cast<std::size_t>(peak)];
+  if (best < kLeastCorrelation || peak == 0 || peak + 1 == std::ssize(by_lag)) return std::nullopt;
+  for (std::ptrdiff_t i = 0; i < std::ssize(by_lag); ++i) {
+    const bool beside = std::abs(i - peak) * grid <= kBeside;
+    if (!beside && by_lag[static_cast<std::size_t>(i)] > best - kLeastLead) return std::nullopt;
+  }
+  const auto at = static_cast<std::size_t>(peak);
+  const double lag =
+      static_cast<double>(first + peak) + top_of(by_lag[at - 1], best, by_lag[at + 1]);
+  const Duration starts = true_poses.front().stamp - poses.front().stamp;
+  return MotionOffset{to_seconds(starts) + lag * to_seconds(grid), best};
+}
+
+}  // namespace aims

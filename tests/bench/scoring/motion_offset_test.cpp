@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bench/scoring/motion_offset.hpp"
+
+#include <gtest/gtest.h>
+
+namespace aims {
+namespace {
+
+/// Ten times a second from `begin` to `end` [s] of a walk along x at 0.7 m/s that stands still in
+/// the first 4 s and from 20 to 25 s; `late` is added to its stamps [s].
+Trajectory walk(double begin, double end, double late, bool stands = true) {
+  Trajectory poses;
+  double x = 0.0;
+  for (int i = 0; i <= static_cast<int>(end * 10.0); ++i) {
+    const double t = 0.1 * i;
+    const bool still = stands && (t < 4.0 || (t > 20.0 && t < 25.0));
+    if (!still) x += 0.07;
+    if (t < begin) continue;
+    poses.push_back({from_seconds(t + late), {Eigen::Quaterniond::Identity(), {x, 0.0, 0.0}}});
+  }
+  return poses;
+}
+
+// The first pose of an estimator comes after its start, so that first poses tell nothing.
+TEST(MotionOffset, IsThatOfTheMotionNotOfTheFirstPoses) {
+  const auto offset = motion_offset(walk(1.5, 60.0, 1000.0), walk(0.0, 60.0, 0.0));
+  ASSERT_TRUE(offset);
+  EXPECT_NEAR(offset->seconds, -1000.0, 0.03);
+  EXPECT_GT(offset->correlation, 0.95);
+  const auto half = motion_offset(walk(0.0, 60.0, -40.0), walk(0.0, 31.0, 0.0));
+  ASSERT_TRUE(half) << "a truth of the first half";
+  EXPECT_NEAR(half->seconds, 40.0, 0.03);
+}
+
+TEST(MotionOffset, OfAWalkWithoutAStopIsNotKnown) {
+  EXPECT_FALSE(motion_offset(walk(1.5, 60.0, 1000.0, false), walk(0.0, 60.0, 0.0, false)));
+  EXPECT_FALSE(motion_offset({}, walk(0.0, 60.0, 0.0)));
+  EXPECT_FALSE(motion_offset(walk(0.0, 8.0, 0.0), walk(0.0, 60.0, 0.0))) << "too short";
+}
+
+}  // namespace
+}  // namespace aims
