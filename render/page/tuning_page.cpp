@@ -235,12 +235,12 @@ Json counts_json(const MergedSweep& units) {
   return json;
 }
 
-/// What the held-out sequences say of a Pareto front; null of one objective and without results.
-Json front_json(const TuningSource& source, const fs::path& folder) {
-  if (source.objectives.size() < 2 || !source.tuned) return {};
+/// What a tuning came to, as it wrote it; null of a sweep and without results.
+Json tune_in(const TuningSource& source, const fs::path& folder) {
+  if (!source.tuned) return {};
   const auto text = read_file(folder / kTuneFile);
-  const auto json = text ? parse_json(*text, kTuneFile) : tl::unexpected(text.error());
-  return json ? member(*json, "verdict") : Json();
+  auto json = text ? parse_json(*text, kTuneFile) : tl::unexpected(text.error());
+  return json ? std::move(*json) : Json();
 }
 
 /// That held-out results were seen before the last ones; null: they were not.
@@ -284,20 +284,23 @@ Result<PageData> tuning_page(const fs::path& folder, const PageOptions& /*option
   page.title = title_of(*source, *varied);
   auto estimators = estimators_json(*source, *varied, all, scores, page);
   if (!estimators) return tl::unexpected(estimators.error());
-  page.json = {{"schema", kPageSchema},
-               {"kind", "tuning"},
-               {"title", page.title},
-               {"palette", palette_json()},
-               {"source", source->tuned ? "tune" : "sweep"},
-               {"plan", source->plan},
-               {"jobs", counts_json(source->units)},
-               {"looked", looked_json(folder)},
-               {"front", front_json(*source, folder)},
-               {"held_out_jobs", counts_json(source->held_out)},
-               {"scores", scores},
-               {"sequences", sequences_json(all.sequences)},
-               {"estimators", std::move(*estimators)},
-               {"notes", source->notes}};
+  const Json tune = tune_in(*source, folder);
+  page.json = {
+      {"schema", kPageSchema},
+      {"kind", "tuning"},
+      {"title", page.title},
+      {"palette", palette_json()},
+      {"source", source->tuned ? "tune" : "sweep"},
+      {"plan", source->plan},
+      {"jobs", counts_json(source->units)},
+      {"looked", looked_json(folder)},
+      {"front", source->objectives.size() > 1 ? value_in(tune, "verdict", Json()) : Json()},
+      {"interrupted", !value_in(tune, "complete", true)},
+      {"held_out_jobs", counts_json(source->held_out)},
+      {"scores", scores},
+      {"sequences", sequences_json(all.sequences)},
+      {"estimators", std::move(*estimators)},
+      {"notes", source->notes}};
   return page;
 }
 

@@ -48,6 +48,14 @@ test("the least of points that are not resolved is not called best", { skip }, a
   assert.match(await page.locator("#best p").first().innerText(), /^Least objective, not resolved: degeneracy\.eta 6\.00/);
 });
 
+test("an interrupted tuning has no tuned values", { skip }, async () => {
+  const { page } = await pages.show({ ...tuning(), source: "tune", interrupted: true });
+  const first = page.locator("#best p").first();
+  assert.equal(await first.getAttribute("data-verdict"), "undecided");
+  assert.match(await first.innerText(), /^Interrupted\. Best so far/);
+  assert.doesNotMatch(await page.locator("#best").innerText(), /Tuned values/);
+});
+
 test("a Pareto front has the verdict on the front, whatever its first objective says", { skip }, async () => {
   const data = { ...tuning(), source: "tune", front: "do not use them: none of the 3 points of the front is better than the defaults" };
   data.estimators[0].analyses[0].held_out = { verdict: "use", text: "use them: 30 % better", sequences: 8, gain: 0.3, gain_interval: [0.2, 0.4], p: 0.01 };

@@ -133,6 +133,8 @@ export interface TuningPayload extends PagePayload {
   jobs: Record<string, number>;
   /** What the held-out sequences say of a Pareto front; null: of one objective. */
   front?: string | null;
+  /** The search ended before its last generation and before the held-out sequences. */
+  interrupted?: boolean;
   held_out_jobs: Record<string, number>;
   /** That held-out results were seen before the last ones. */
   looked?: string | null;

@@ -16,7 +16,11 @@ function bracket(interval: [number, number] | null, scale = 1, unit = ""): strin
 }
 
 /** The values found and, of a tuning, what the held-out sequences say of them. */
-function verdict({ text: values, is_default: keeps }: Best, analysis: Analysis, { tuned, front }: Search): HTMLElement {
+function verdict({ text: values, is_default: keeps }: Best, analysis: Analysis, { tuned, front, interrupted }: Search): HTMLElement {
+  if (interrupted) {
+    return h("p", { class: "verdict undecided", "data-verdict": "undecided" },
+      h("strong", {}, "Interrupted."), ` Best so far, on the sequences tuned on: ${values}. Not validated.`);
+  }
   if (front) {
     const name = front.startsWith("use ") ? "use" : front.startsWith("undecided") ? "undecided" : "do-not-use";
     return h("div", {},
@@ -42,6 +46,8 @@ export interface Search {
   tuned: boolean;
   /** The verdict on a Pareto front; null: of one objective. */
   front: string | null;
+  /** Ended by the user: there are points, and no result. */
+  interrupted: boolean;
 }
 
 /** What the best point gains, in words. */

@@ -37,7 +37,7 @@ function bestSection(data: TuningPayload, view: View): HTMLElement {
     return section("best", "Best values", h("p", { class: "nothing" },
       `Best values and sensitivity exist for ${view.estimator.analyses.map((each) => each.score).join(", ")}; for ${view.score} only the points are shown.`));
   }
-  return section("best", "Best values", outcome(analysis, { tuned: data.source === "tune", front: data.front ?? null }),
+  return section("best", "Best values", outcome(analysis, { tuned: data.source === "tune", front: data.front ?? null, interrupted: data.interrupted === true }),
     data.looked ? h("p", { class: "verdict undecided", "data-looked": "" }, data.looked) : null, bestTable(view.estimator, analysis));
 }
 
