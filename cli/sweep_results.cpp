@@ -44,7 +44,10 @@ Json points_json(const MergedSweep& sweep, const Objective& objective) {
 void print_points(const MergedSweep& sweep, const Objective& objective) {
   const auto responses = sweep_responses(sweep, objective.score);
   if (!responses || responses->empty()) return;
-  const std::size_t points = point_table(*responses, objective).rows.size();
+  std::size_t points = 0;
+  for (const SweepResponse& each : *responses) {
+    points += other_points(each.table) + (each.table.default_runs.empty() ? 0 : 1);
+  }
   const TextTable table = point_table(*responses, objective, kMostShown);
   if (table.rows.empty()) return;
   print_out("{}", to_text(table));

@@ -17,9 +17,8 @@ constexpr const char* kSensitivityIntroduction =
     "One setting at a time, its number times a factor, on the same {1} sequences; all else as\n"
     "before. Ratios are of the median ATE yaw ({2}), above 1 where the change makes it worse; in\n"
     "brackets the sequences on which `{0}` alone succeeds (-) and the variant alone (+). A dash\n"
-    "stands where there is nothing to compare: the setting does not allow the value, or the "
-    "variant\n"
-    "failed or lacks a part of every run. p: sign test of the successes over seeds.\n";
+    "stands where there is nothing to compare: the setting does not allow the value, or the\n"
+    "variant failed or lacks a part of every run. p: sign test of the successes over seeds.\n";
 
 const TableColumns<SensitivityCell>& cell_columns() {
   using Cell = SensitivityCell;

@@ -42,13 +42,14 @@ PointSummary summary_of(const ResponseTable& table, const Objective& objective, 
   summary.is_default = of_defaults;
   summary.values = values_at(table, point);
   std::vector<double> scores;
-  for (const std::size_t i : cases_of(table, "")) {
+  const auto cases = cases_of(table, "");
+  for (const std::size_t i : cases) {
     const RunScore& run = runs[i];
     if (run.value) scores.push_back(*run.value);
     if (run.diverged) ++summary.diverged;
     if (run.invalid.empty()) ++summary.runs;
   }
-  summary.objective = objective_at(table, objective, point, cases_of(table, ""));
+  summary.objective = objective_at(table, objective, point, cases);
   summary.median = median(scores);
   summary.worst = worst_of(scores, objective.score);
   return summary;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <set>
@@ -225,19 +226,23 @@ Result<Scenarios> plan_scenarios(std::span<const std::string> names,
   return scenarios;
 }
 
+std::string fixed_text(EstimatorSpec spec, std::span<const ParameterRange> ranges) {
+  std::erase_if(spec.settings, [&](const auto& setting) {
+    return std::ranges::any_of(
+        ranges, [&](const ParameterRange& range) { return range.key == setting.first; });
+  });
+  std::ranges::sort(spec.settings);
+  return unlabelled_text(spec);
+}
+
 namespace {
 
 /// Error for two estimators that differ in nothing but what is varied: their points are the same.
 Result<void> check_different(const std::vector<EstimatorSpec>& estimators,
                              std::span<const ParameterRange> ranges) {
   std::map<std::string, std::string> known;
-  for (EstimatorSpec spec : estimators) {
-    std::erase_if(spec.settings, [&](const auto& setting) {
-      return std::ranges::any_of(
-          ranges, [&](const ParameterRange& range) { return range.key == setting.first; });
-    });
-    std::ranges::sort(spec.settings);
-    const auto [same, is_new] = known.emplace(unlabelled_text(spec), spec.label);
+  for (const EstimatorSpec& spec : estimators) {
+    const auto [same, is_new] = known.emplace(fixed_text(spec, ranges), spec.label);
     if (is_new) continue;
     return failure(fmt::format(
         "estimators: {} and {} differ in nothing but what is varied, so that they are the same at "

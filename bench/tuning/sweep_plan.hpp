@@ -52,6 +52,9 @@ Result<std::vector<std::shared_ptr<const Scenario>>> plan_scenarios(
 Result<std::vector<Job>> plan_jobs(const SweepPlan& plan,
                                    const std::filesystem::path& scenario_folder);
 
+/// An estimator's name and its settings that are not varied, in order.
+std::string fixed_text(EstimatorSpec spec, std::span<const ParameterRange> ranges);
+
 /// Writes what the results of a sweep were analysed by to `objective.yaml` of their folder.
 Result<void> write_objective(const Objective& objective, const std::filesystem::path& folder);
 

@@ -89,15 +89,6 @@ void add_planned(const std::vector<std::string>& texts, std::vector<EstimatorSpe
   }
 }
 
-/// The name and the settings that are not varied.
-std::string fixed_text(EstimatorSpec spec, const std::vector<ParameterRange>& ranges) {
-  std::erase_if(spec.settings, [&](const auto& setting) {
-    return std::ranges::any_of(
-        ranges, [&](const ParameterRange& range) { return range.key == setting.first; });
-  });
-  return unlabelled_text(spec);
-}
-
 /// The one estimator of the plans that differs from `spec` in varied values alone; null of none and
 /// of several.
 const EstimatorSpec* planned_as(const EstimatorSpec& spec, const VariedParameters& varied) {
