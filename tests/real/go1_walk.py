@@ -3,9 +3,12 @@
 """go1_walk.py AIMS FOLDER: legs and IMU of a real Go1 against stamped motion capture.
 
 FOLDER/go1 holds walk.yaml, walk.csv and truth_first_half.tum, which are no part of this project.
-Prints by how many percent each estimate is too long along the track, for contact thresholds that are
-learned or set; fails beyond 3 % or when thresholds change it by more than 1 point. Without the
-folder it is skipped (exit 77).
+Prints by how many percent each estimate is too long, for contact thresholds that are learned or
+set: along the track of the first half, whose truth has stamps, and in the two spans of the whole
+square. Markers beside the base take another way through a corner than the base; so the spans are
+those of the point of the body whose path has the form of the true one over the first half.
+Fails beyond 3 % or when thresholds change the first half by more than 1 point. Without the folder
+it is skipped (exit 77).
 """
 import pathlib
 import subprocess
@@ -19,10 +22,58 @@ JUDGED = ("leg_inertial", "aims_d")
 THRESHOLDS = (None, 30, 50, 100, 150, 200)  # None: learned
 WINDOW = 0.5  # of the displacements that are compared [s]
 WALKING = 0.15  # least true displacement of a window [m]
+WALK = 20.5  # after the first pose of an estimate [s]; then the robot lies down
+SPANS = np.array([3.13, 3.39])  # smallest rectangle around the whole motion capture [m]
+
+
+def turned(x, y, quaternions):
+    """The point (x, y) of the body [m], turned to the world by quaternions (n, 4; x y z w)."""
+    qx, qy, qz, qw = quaternions.T
+    return np.column_stack([(1 - 2 * (qy**2 + qz**2)) * x + 2 * (qx * qy - qw * qz) * y,
+                            2 * (qx * qy + qw * qz) * x + (1 - 2 * (qx**2 + qz**2)) * y])
+
+
+def markers_in_body(estimate, truth):
+    """Where in the body [m] the markers are, by the first half, and the deviation of the fit [m].
+
+    Heading, translation and scale of the path are free, so that a path that is too short or too
+    long gives the same place.
+    """
+    inside = (estimate[:, 0] >= truth[0, 0]) & (estimate[:, 0] <= truth[-1, 0])
+    poses = estimate[inside]
+    true = np.column_stack([np.interp(poses[:, 0], truth[:, 0], truth[:, i]) for i in (1, 2)])
+    axes = [turned(1.0, 0.0, poses[:, 4:8]), turned(0.0, 1.0, poses[:, 4:8])]
+    ones, zeros = np.ones(len(poses)), np.zeros(len(poses))
+    columns = [*axes, np.column_stack([ones, zeros]), np.column_stack([zeros, ones]), poses[:, 1:3]]
+    rows = np.stack(columns, axis=2).reshape(-1, 5)
+    best = (np.inf, None)
+    for heading in np.radians(np.arange(-10.0, 10.0, 0.1)):
+        c, s = np.cos(heading), np.sin(heading)
+        wanted = (true @ np.array([[c, -s], [s, c]])).reshape(-1)
+        solution = np.linalg.lstsq(rows, wanted, rcond=None)[0]
+        deviation = np.sqrt(np.sum((rows @ solution - wanted) ** 2) / len(poses))
+        best = min(best, (deviation, tuple(solution[:2])))
+    return best[1], best[0]
+
+
+def spans_of(path):
+    """Sorted sides [m] of the smallest rectangle around points (n, 2)."""
+    angles = np.linspace(0.0, np.pi / 2, 181)
+    sides = [np.ptp(path @ np.array([[np.cos(a), -np.sin(a)], [np.sin(a), np.cos(a)]]), axis=0)
+             for a in angles]
+    return np.sort(min(sides, key=np.prod))
+
+
+def span_errors(estimate, truth):
+    """Percent by which the spans of the markers are too long, their place and its deviation [m]."""
+    markers, deviation = markers_in_body(estimate, truth)
+    walk = estimate[estimate[:, 0] - estimate[0, 0] < WALK]
+    path = walk[:, 1:3] + turned(*markers, walk[:, 4:8])
+    return 100.0 * (spans_of(path) / SPANS - 1.0), markers, deviation
 
 
 def along_track_error(estimate, truth):
-    """Percent by which displacements along the true ones are too long, after alignment by heading."""
+    """Percent by which displacements along the true ones are too long, aligned by heading."""
     inside = (truth[:, 0] >= estimate[0, 0]) & (truth[:, 0] <= estimate[-1, 0])
     time, path = truth[inside, 0], truth[inside, 1:3]
     at = np.column_stack([np.interp(time, estimate[:, 0], estimate[:, i]) for i in (1, 2)])
@@ -40,7 +91,7 @@ def along_track_error(estimate, truth):
 
 
 def errors_of(aims, recording, truth, threshold, out):
-    """The error of each estimator with that contact threshold."""
+    """Along the first half and in the spans: the errors of each estimator with that threshold."""
     detection = ["learned"] if threshold is None else ["threshold"]
     settings = [f"recording.contact_detection={detection[0]}"]
     if threshold is not None:
@@ -50,7 +101,11 @@ def errors_of(aims, recording, truth, threshold, out):
     for setting in settings:
         command += ["--set", setting]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-    return {name: along_track_error(np.loadtxt(out / f"{name}.tum"), truth) for name in ESTIMATORS}
+    errors = {}
+    for name in ESTIMATORS:
+        estimate = np.loadtxt(out / f"{name}.tum")
+        errors[name] = along_track_error(estimate, truth), span_errors(estimate, truth)
+    return errors
 
 
 def main():
@@ -69,10 +124,16 @@ def main():
           *("learned" if t is None else t for t in THRESHOLDS))
     failed = False
     for name in ESTIMATORS:
-        errors = [table[threshold][name] for threshold in THRESHOLDS]
-        print(f"{name:14s}", *(f"{error:+7.2f}" for error in errors))
+        errors = [table[threshold][name][0] for threshold in THRESHOLDS]
+        spans = np.array([table[threshold][name][1][0] for threshold in THRESHOLDS])
+        (x, y), deviation = table[None][name][1][1:]
+        print(f"{name:14s} first half", *(f"{error:+7.2f}" for error in errors))
+        for span in range(2):
+            print(f"{'':14s} span {span + 1}    ", *(f"{error:+7.2f}" for error in spans[:, span]))
+        print(f"{'':14s} markers at {x:.3f}, {y:.3f} m in the body, deviation {deviation:.3f} m")
         if name in JUDGED:
             failed |= max(map(abs, errors)) > 3.0 or max(errors) - min(errors) > 1.0
+            failed |= np.abs(spans).max() > 3.0
     return int(failed)
 
 
