@@ -153,6 +153,12 @@ Result<void> check_label(const EstimatorSpec& spec, std::string_view text) {
   }
   const bool itself = spec.label == spec.name && spec.settings.empty();
   if (itself || !is_registered(spec.label)) return {};
+  if (spec.label == spec.name) {
+    return failure(fmt::format(
+        "'{}': the label '{}' is that of the estimator without settings; choose another "
+        "label, or keep the name with --set estimators.{}.KEY=VALUE",
+        text, spec.label, spec.name));
+  }
   return failure(
       fmt::format("'{}': the label '{}' is the name of another estimator; choose another label",
                   text, spec.label));

@@ -26,6 +26,7 @@ std::uint64_t seed_of(const std::string& text) {
 /// What the jobs of one scenario and seed came to.
 struct StoredRun {
   std::vector<LabelledResult> results;
+  std::map<std::string, std::string> specs;
   bool complete = true;
 };
 
@@ -42,11 +43,14 @@ Result<StoredResults> read_store(const JobStore& store) {
     // Points of a sweep share a label.
     const bool repeated = std::ranges::any_of(
         run.results, [&](const LabelledResult& each) { return each.label == job.label; });
-    run.results.push_back({repeated ? job.estimator : job.label, std::move(*result)});
+    const std::string& label = repeated ? job.estimator : job.label;
+    run.specs[label] = job.estimator;
+    run.results.push_back({label, std::move(*result)});
   }
   StoredResults results;
   for (const auto& [key, run] : runs) {
     RunRecord record = record_of(key.first, key.second, run.results, run.complete);
+    record.specs = run.specs;
     if (has_outcome(record)) results[key.first].push_back(std::move(record));
   }
   return results;

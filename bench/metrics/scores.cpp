@@ -150,6 +150,7 @@ void score_success(Scores& scores, const Trajectory& estimate, const Trajectory&
   scores.success = verdict.reason == FailureReason::kNone;
   scores.failure_reason = verdict.reason;
   scores.diverged_at = verdict.diverged_at;
+  scores.partial = verdict.partial;
   limits.error_offset *= kStrictErrorPerPath / kSuccessErrorPerPath;
   limits.error_per_path = std::min(limits.error_per_path, kStrictErrorPerPath);
   scores.success_1_percent =
@@ -218,6 +219,7 @@ std::vector<PosePair> headline_pairs(const Trajectory& estimate, const Trajector
 void withdraw_success(Scores& scores, FailureReason reason) {
   scores.success = false;
   scores.success_1_percent = false;
+  scores.partial = scores.partial || is_lack_of_poses(reason);
   const FailureReason own = scores.failure_reason;
   if (own == FailureReason::kInvalid || own == FailureReason::kGap ||
       own == FailureReason::kErrorLimit) {

@@ -54,6 +54,7 @@ struct Scores {
   bool success_1_percent = false;  ///< within 1 %
   FailureReason failure_reason = FailureReason::kNoOverlap;
   std::optional<Time> diverged_at;  ///< none on success, or when the reason is not the estimate's
+  bool partial = false;             ///< poses are missing or invalid, whatever failed first
 
   int poses = 0;             ///< given by the estimator
   int poses_invalid = 0;     ///< not finite, not a rigid transform, or out of order

@@ -9,7 +9,10 @@ namespace {
 
 /// Keeps the earliest failure; of two at the same instant the first noted.
 void note(SuccessVerdict& verdict, FailureReason reason, Time stamp) {
-  if (!verdict.diverged_at || stamp < *verdict.diverged_at) verdict = {reason, stamp};
+  verdict.partial = verdict.partial || is_lack_of_poses(reason);
+  if (verdict.diverged_at && stamp >= *verdict.diverged_at) return;
+  verdict.reason = reason;
+  verdict.diverged_at = stamp;
 }
 
 void note_invalid_poses(SuccessVerdict& verdict, const Trajectory& estimate) {
@@ -108,9 +111,28 @@ std::string_view name_of(FailureReason reason) {
   return "";
 }
 
+bool is_lack_of_poses(FailureReason reason) {
+  switch (reason) {
+    case FailureReason::kNone:
+    case FailureReason::kErrorLimit:
+    case FailureReason::kInvalidRun:
+      return false;
+    case FailureReason::kNoPoses:
+    case FailureReason::kNoOverlap:
+    case FailureReason::kInvalid:
+    case FailureReason::kStartsLate:
+    case FailureReason::kGap:
+    case FailureReason::kEndsEarly:
+    case FailureReason::kCoverage:
+    case FailureReason::kInterrupted:
+      return true;
+  }
+  return true;
+}
+
 SuccessVerdict judge(const Trajectory& estimate, const Trajectory& truth,
                      std::span<const PosePair> pairs, const SuccessLimits& limits) {
-  if (estimate.empty()) return {FailureReason::kNoPoses, std::nullopt};
+  if (estimate.empty()) return {FailureReason::kNoPoses, std::nullopt, true};
   SuccessVerdict verdict;
   note_invalid_poses(verdict, estimate);
   if (truth.empty() || pairs.size() < 2) {

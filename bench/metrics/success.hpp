@@ -47,9 +47,13 @@ struct SuccessLimits {
 /// When and why an estimate failed; `diverged_at` has a value exactly when there is a reason that
 /// lies in the estimate.
 struct SuccessVerdict {
-  FailureReason reason = FailureReason::kNone;
+  FailureReason reason = FailureReason::kNone;  ///< the earliest
   std::optional<Time> diverged_at;
+  bool partial = false;  ///< poses are missing or invalid, whatever failed first
 };
+
+/// Whether that reason is that poses are missing or invalid.
+bool is_lack_of_poses(FailureReason reason);
 
 /// The earliest failure of an estimate. `estimate` is the output of the estimator, `pairs` are its
 /// valid poses aligned at the start. An estimate fails when its position error exceeds both

@@ -41,15 +41,28 @@ void apply_statistic(std::span<const RunRecord> runs, const std::vector<double>&
   for (const RunRecord& run : runs) check.seeds.push_back(run.seed);
 }
 
+/// Whether it is an error or a success of the estimate, which a part of a run has not.
+bool is_accuracy(const std::string& score) {
+  return score.starts_with(kSuccessKey) || (better_of(score) == Better::kSmaller &&
+                                            !is_timing(score) && !score.starts_with("health."));
+}
+
+/// The score of a run. Where the estimator failed or its estimate lacks a part, the success is lost
+/// and errors are none.
+std::optional<double> value_of(const RunRecord& run, const Expectation& expectation) {
+  const std::string& estimator = expectation.estimator;
+  const std::string& score = expectation.score;
+  if (estimator.empty()) return find_run_score(run, score);
+  if (!is_partial(run, estimator) || !is_accuracy(score)) return find_score(run, estimator, score);
+  return score.starts_with(kSuccessKey) ? std::optional(0.0) : std::nullopt;
+}
+
 ExpectationCheck check_one(const Expectation& expectation, std::span<const RunRecord> runs) {
   ExpectationCheck check;
   check.expectation = expectation;
   std::vector<double> values;
   for (const RunRecord& run : runs) {
-    const auto value = expectation.estimator.empty()
-                           ? find_run_score(run, expectation.score)
-                           : find_score(run, expectation.estimator, expectation.score);
-    if (value) {
+    if (const auto value = value_of(run, expectation)) {
       values.push_back(*value);
     } else {
       check.seeds.push_back(run.seed);

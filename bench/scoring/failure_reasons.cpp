@@ -32,7 +32,13 @@ constexpr std::array kWords = {
     Words{FailureReason::kCoverage, "too little of the time tracked"},
     Words{FailureReason::kInterrupted, "interrupted"}};
 
+/// Appended to the name of a first failure where poses are missing too.
+constexpr const char* kAndPartial = "+partial";
+
 std::string words_of(const std::string& reason) {
+  if (reason.ends_with(kAndPartial)) {
+    return "error beyond the limit of a success, and poses are missing";
+  }
   const auto found = std::ranges::find_if(
       kWords, [&](const Words& each) { return name_of(each.reason) == reason; });
   return found == kWords.end() ? reason : found->text;
@@ -66,7 +72,8 @@ std::map<std::string, Failed> failures_of(std::span<const RunRecord> records,
     if (scores.is_null()) continue;
     const std::string reason = value_in(scores, "diverged_reason", "");
     if (value_in(scores, "success", false) || reason.empty()) continue;
-    Failed& failed = failures[reason];
+    const bool also_partial = reason == name_of(FailureReason::kErrorLimit) && is_partial(scores);
+    Failed& failed = failures[reason + (also_partial ? kAndPartial : "")];
     ++failed.runs;
     const double start = value_in(value_in(run.scores, "truth", Json()), "start_s", 0.0);
     const auto at = number_at(scores, "diverged_at_s");

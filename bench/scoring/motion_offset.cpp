@@ -15,19 +15,27 @@ constexpr Duration kGrid = kSecond / 10;  ///< at least
 constexpr Duration kOverlap = 5 * kSecond;
 constexpr Duration kBeside = 2 * kSecond;  ///< farther off, another offset is no part of the peak
 constexpr std::size_t kMostSpeeds = 2000;
+constexpr double kFinest = 1e-3;  ///< step of the search [s]
 constexpr double kLeastCorrelation = 0.9;
 constexpr double kLeastLead = 0.05;       ///< in correlation, over other offsets
 constexpr double kLeastDeviation = 0.02;  ///< of the speeds [m/s]
 
-/// The speed over `kWindow` from each point of the grid on [m/s].
+/// The speed over `kWindow` from that time on [m/s]; none where the poses do not cover it.
+std::optional<double> speed_from(const Trajectory& poses, Time at) {
+  const auto from = pose_at(poses, at);
+  const auto to = pose_at(poses, at + kWindow);
+  if (!from || !to) return std::nullopt;
+  return (to->translation - from->translation).norm() / to_seconds(kWindow);
+}
+
+/// The speed from each point of the grid on [m/s].
 std::vector<double> speeds_of(const Trajectory& poses, Duration grid) {
   std::vector<double> speeds;
   const Time end = poses.back().stamp - kWindow;
   for (Time at = poses.front().stamp; at <= end; at += grid) {
-    const auto from = pose_at(poses, at);
-    const auto to = pose_at(poses, at + kWindow);
-    if (!from || !to) break;
-    speeds.push_back((to->translation - from->translation).norm() / to_seconds(kWindow));
+    const auto speed = speed_from(poses, at);
+    if (!speed) break;
+    speeds.push_back(*speed);
   }
   return speeds;
 }
@@ -64,6 +72,39 @@ double top_of(double before, double at, double after) {
 
 }  // namespace
 
+/// Of the offsets within `half` of `about` at which the estimate's speeds, on a grid of `kGrid`,
+/// correlate best with the true ones: the best one.
+MotionOffset refined(const Trajectory& poses, const Trajectory& true_poses, double about,
+                     double half) {
+  const std::vector<double> speeds = speeds_of(poses, kGrid);
+  const auto correlation = [&](double offset) {
+    std::vector<double> ours, theirs;
+    for (std::size_t i = 0; i < speeds.size(); ++i) {
+      const Time at = poses.front().stamp + static_cast<Time>(i) * kGrid + from_seconds(offset);
+      const auto speed = speed_from(true_poses, at);
+      if (!speed) continue;
+      ours.push_back(speeds[i]);
+      theirs.push_back(*speed);
+    }
+    return ours.empty() ? 0.0 : correlation_at(ours, theirs, 0);
+  };
+  MotionOffset best{about, correlation(about)};
+  const auto try_at = [&](double offset) {
+    if (const double at = correlation(offset); at > best.correlation) best = {offset, at};
+  };
+  const double grid = to_seconds(kGrid);
+  for (double beside = grid; beside <= half; beside += grid) {
+    try_at(about - beside);
+    try_at(about + beside);
+  }
+  for (double step = grid / 2.0; step > kFinest; step /= 2.0) {
+    const double middle = best.seconds;
+    try_at(middle - step);
+    try_at(middle + step);
+  }
+  return best;
+}
+
 std::optional<MotionOffset> motion_offset(const Trajectory& estimate, const Trajectory& truth) {
   const ValidPart valid_estimate(estimate), valid_truth(truth);
   const Trajectory &poses = valid_estimate.poses(), &true_poses = valid_truth.poses();
@@ -89,7 +130,8 @@ std::optional<MotionOffset> motion_offset(const Trajectory& estimate, const Traj
   const double lag =
       static_cast<double>(first + peak) + top_of(by_lag[at - 1], best, by_lag[at + 1]);
   const Duration starts = true_poses.front().stamp - poses.front().stamp;
-  return MotionOffset{to_seconds(starts) + lag * to_seconds(grid), best};
+  return refined(poses, true_poses, to_seconds(starts) + lag * to_seconds(grid),
+                 to_seconds(grid) / 2.0);
 }
 
 }  // namespace aims

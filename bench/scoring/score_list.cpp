@@ -104,6 +104,7 @@ constexpr std::array kScores = {
           [](const Scores& s) { return Json(name_of(s.failure_reason)); }},
     Score{"diverged_at_s", "", "s", 1, kLarge, 0,
           [](const Scores& s) { return s.diverged_at ? Json(to_seconds(*s.diverged_at)) : Json(); }},
+    Score{"partial", "", "", 0, kOpen, 0, [](const Scores& s) { return Json(s.partial); }},
     Score{"coverage", "tracked", "-", 2, kLarge, 0, [](const Scores& s) { return Json(s.coverage); }},
     Score{"m_list_percent", "M_list", "%", 3, kSmall, 0.02, m_list_json},
     Score{"m_list_signed_percent", "", "%", 3, kOpen, 0,

@@ -118,8 +118,9 @@ bool is_partial(const RunRecord& record, const std::string& estimator) {
 bool is_partial(const Json& scores) {
   if (scores.is_null() || value_in(scores, "success", false)) return false;
   const std::string reason = value_in(scores, "diverged_reason", "");
-  return !reason.empty() && reason != name_of(FailureReason::kErrorLimit) &&
-         reason != name_of(FailureReason::kInvalidRun);
+  const bool lacks_poses = !reason.empty() && reason != name_of(FailureReason::kErrorLimit) &&
+                           reason != name_of(FailureReason::kInvalidRun);
+  return value_in(scores, "partial", lacks_poses);  // older results know the first failure alone
 }
 
 std::vector<std::string> estimators_in(std::span<const RunRecord> runs) {

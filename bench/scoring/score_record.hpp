@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -29,6 +30,8 @@ std::optional<double> number_at(const Json& json, std::string_view key);
 struct RunRecord {
   std::uint64_t seed = 0;
   Json scores;
+  /// By label, the estimator and its settings ("aims_d+KEY=VALUE"); empty: not known.
+  std::map<std::string, std::string> specs = {};
 };
 
 /// Mean, median and 99th percentile of the times per scan [ms].

@@ -47,8 +47,8 @@ Result<void> check_overlap(const SourcedTrajectory& estimate, const SourcedTraje
                   estimate.source, span_text(span), span_text(truth.trajectory));
   if (const auto offset = motion_offset(estimate.trajectory, truth.trajectory)) {
     return failure(fmt::format(
-        "{}with --time-offset {:.2f} both stand and walk at the same times (their speeds correlate "
-        "by {:.2f})",
+        "{}if both are of one walk, with --time-offset {:.2f} they stand and walk at the same times "
+        "(their speeds correlate by {:.2f})",
         apart, offset->seconds, offset->correlation));
   }
   return failure(

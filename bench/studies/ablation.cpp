@@ -80,8 +80,16 @@ std::string changes_of(const Suite& suite, const std::string& label) {
 }
 
 AblationEffect effect_of(const Ablation& ablation, const Suite& suite, const std::string& label) {
-  AblationEffect effect{label, changes_of(suite, label), {}, std::nullopt, ""};
+  AblationEffect effect{.label = label, .changes = changes_of(suite, label)};
   constexpr std::size_t kAte = 0;  // the first headline score
+  for (const AblationCase& each : ablation.cases) {
+    for (const AblationRow& row : each.rows) {
+      if (row.label != label) continue;
+      effect.runs += row.runs;
+      effect.successes += row.successes;
+      effect.compared += row.cells[kAte].count;
+    }
+  }
   for (std::size_t i = 0; i < kAblationCount; ++i) {
     double logarithms = 0.0;
     int count = 0;

@@ -53,6 +53,9 @@ struct AblationEffect {
   std::array<std::optional<double>, kAblationCount> ratios;
   std::optional<double> worst_ratio;  ///< of the ATE, over scenarios
   std::string worst_scenario;
+  std::size_t runs = 0;
+  std::size_t successes = 0;
+  std::size_t compared = 0;  ///< runs with an ATE of both: where parts are missing, fewer
 };
 
 struct Ablation {

@@ -45,8 +45,8 @@ std::string markdown_of(const Ablation& ablation, const Suite& suite) {
   std::string text = fmt::format(kAblationIntroduction, ablation.complete);
   if (!suite.complete) text += "\n**Interrupted: of the finished runs alone.**\n";
   text +=
-      "\n## Over all scenarios\n\nGeometric means of the ratios; last, the largest of the "
-      "ATE yaw.\n\n" +
+      "\n## Over all scenarios\n\nGeometric means of the ratios over the runs that are compared: "
+      "not those that an estimate lacks a part of; those are lost successes.\n\n" +
       to_markdown(effect_table(ablation));
   for (const AblationCase& each : ablation.cases) {
     const std::size_t runs = each.rows.empty() ? 0 : each.rows.front().runs;
@@ -105,7 +105,10 @@ Json ablation_json(const Ablation& ablation, const Suite& suite) {
     json["effects"][each.label] = {{"settings", each.changes},
                                    {"mean_ratio", std::move(ratios)},
                                    {"largest_ate_ratio", json_of(each.worst_ratio)},
-                                   {"largest_in", each.worst_scenario}};
+                                   {"largest_in", each.worst_scenario},
+                                   {"runs", each.runs},
+                                   {"successes", each.successes},
+                                   {"compared", each.compared}};
   }
   json["invalid"] = invalid_json(suite);
   for (const AblationCase& each : ablation.cases) json["scenarios"].push_back(case_json(each));
@@ -122,6 +125,12 @@ TextTable effect_table(const Ablation& ablation) {
   }
   columns.push_back({"", "largest of ATE yaw", &AblationEffect::worst_ratio, "{:.3g}"});
   columns.push_back({"", "in", &AblationEffect::worst_scenario});
+  columns.push_back({"", "success", [](const AblationEffect& each) {
+                       return fmt::format("{} of {}", each.successes, each.runs);
+                     }});
+  columns.push_back({"", "compared", [](const AblationEffect& each) {
+                       return fmt::format("{} of {}", each.compared, each.runs);
+                     }});
   return rows_table(columns, ablation.effects);
 }
 

@@ -160,13 +160,51 @@ void note_partial(const char* side, const StoredResults& results, const SeedsByN
   }
 }
 
+/// What tells one sequence of a scenario and seed from another; null where it is not known.
+Json sequence_of(const RunRecord& run) {
+  Json parts = Json::object();
+  for (const char* key : {"simulated_s", "segments"}) {
+    if (run.scores.contains(key)) parts[key] = run.scores[key];
+  }
+  return parts.empty() ? Json() : parts;
+}
+
+const RunRecord* run_of(const std::vector<RunRecord>& runs, std::uint64_t seed) {
+  const auto found = std::ranges::find(runs, seed, &RunRecord::seed);
+  return found == runs.end() ? nullptr : &*found;
+}
+
+/// Notes where the two sides are not results of one task or one estimator.
+void note_others(const std::string& scenario, const std::vector<RunRecord>& before,
+                 const std::vector<RunRecord>& after, Comparison& comparison) {
+  std::vector<std::uint64_t> seeds;
+  for (const RunRecord& run : before) {
+    const RunRecord* other = run_of(after, run.seed);
+    if (other == nullptr) continue;
+    const Json ours = sequence_of(run), theirs = sequence_of(*other);
+    if (!ours.is_null() && !theirs.is_null() && ours != theirs) seeds.push_back(run.seed);
+    for (const auto& [label, spec] : run.specs) {
+      const auto theirs_of = other->specs.find(label);
+      if (theirs_of == other->specs.end() || theirs_of->second == spec) continue;
+      std::string line = fmt::format("{}: {} before, {} after", label, spec, theirs_of->second);
+      if (std::ranges::find(comparison.other_specs, line) == comparison.other_specs.end()) {
+        comparison.other_specs.push_back(std::move(line));
+      }
+    }
+  }
+  if (seeds.empty()) return;
+  comparison.other_sequences.push_back(fmt::format("{}, seed {}", scenario, fmt::join(seeds, ",")));
+}
+
 }  // namespace
 
 Comparison compare(const StoredResults& before, const StoredResults& after) {
   Comparison comparison;
   for (const auto& [scenario, runs] : before) {
     const auto other = after.find(scenario);
-    if (other != after.end()) compare_runs(scenario, runs, other->second, comparison);
+    if (other == after.end()) continue;
+    compare_runs(scenario, runs, other->second, comparison);
+    note_others(scenario, runs, other->second, comparison);
   }
   note_invalid("before", before, comparison);
   note_invalid("after", after, comparison);

@@ -47,14 +47,19 @@ struct Comparison {
   /// Where settings on top of the scenarios differ ("key=value"), those of each side alone.
   std::vector<std::string> set_before;
   std::vector<std::string> set_after;
+  /// "scenario, seed 1,2" whose sequence is another one before and after, by its duration and the
+  /// lengths of its segments.
+  std::vector<std::string> other_sequences;
+  /// "label: aims_d before, aims_d+KEY=VALUE after" where a label stands for another estimator.
+  std::vector<std::string> other_specs;
   std::vector<std::string> only_before;  ///< "scenario, estimator, seed 1,2"
   std::vector<std::string> only_after;
   /// Likewise, where the estimator fails after and not before, and the reverse: such runs are lost
   /// successes, and have no other scores.
   std::vector<std::string> fails_now;
   std::vector<std::string> fails_no_more;
-  /// "after: scenario, estimator, seed 1,2" where an estimate leaves a part of the run out, by a gap,
-  /// an early end or no poses: of these runs the success alone is compared.
+  /// "after: scenario, estimator, seed 1,2" where an estimate leaves a part of the run out, by a
+  /// gap, an early end or no poses: of these runs the success alone is compared.
   std::vector<std::string> partial;
   std::vector<std::string> invalid;    ///< runs left out: "before: corridor seed 3: the robot fell"
   double expected_false_alarms = 0.0;  ///< sum over the changes
@@ -70,7 +75,8 @@ Comparison compare(const StoredResults& before, const StoredResults& after);
 Comparison with_settings(Comparison comparison, std::vector<std::string> before,
                          std::vector<std::string> after);
 
-/// What is set on one side alone, and whether it changes the task; empty where nothing is.
+/// What differs beside the results: what is set on one side alone, sequences that are other ones,
+/// and labels of other estimators; empty where nothing does.
 std::string settings_text(const Comparison& comparison);
 
 /// "better", "worse", "too few", "small", "none", "same".

@@ -116,6 +116,8 @@ Json comparison_json(const Comparison& comparison, const std::string& before,
           {"after", after},
           {"set_before", comparison.set_before},
           {"set_after", comparison.set_after},
+          {"other_sequences", comparison.other_sequences},
+          {"other_specs", comparison.other_specs},
           {"compared", comparison.changes.size()},
           {"better", count(comparison, ChangeVerdict::kBetter)},
           {"worse", count(comparison, ChangeVerdict::kWorse)},
@@ -140,20 +142,32 @@ Comparison with_settings(Comparison comparison, std::vector<std::string> before,
 }
 
 std::string settings_text(const Comparison& comparison) {
-  const auto& before = comparison.set_before;
-  const auto& after = comparison.set_after;
-  if (before.empty() && after.empty()) return "";
+  const auto listed = [](const std::vector<std::string>& settings) {
+    return settings.empty() ? "nothing" : fmt::format("{}", fmt::join(settings, ", "));
+  };
   const auto of_task = [](const std::string& setting) {
     return !setting.starts_with("estimators.") && !setting.starts_with("run.");
   };
-  const bool task = std::ranges::any_of(before, of_task) || std::ranges::any_of(after, of_task);
-  return fmt::format(
-      "Set on one side alone: before: {}; after: {}.{}\n",
-      before.empty() ? "nothing" : fmt::format("{}", fmt::join(before, ", ")),
-      after.empty() ? "nothing" : fmt::format("{}", fmt::join(after, ", ")),
-      task
-          ? " The sequences differ: changes are those of the task too, not of the estimators alone."
-          : "");
+  const auto& before = comparison.set_before;
+  const auto& after = comparison.set_after;
+  const auto& sequences = comparison.other_sequences;
+  std::string text;
+  if (!before.empty() || !after.empty()) {
+    text = fmt::format("Set on one side alone: before: {}; after: {}.\n", listed(before),
+                       listed(after));
+  }
+  if (!comparison.other_specs.empty()) {
+    text +=
+        fmt::format("One label, two estimators: {}.\n", fmt::join(comparison.other_specs, "; "));
+  }
+  if (!sequences.empty() || std::ranges::any_of(before, of_task) ||
+      std::ranges::any_of(after, of_task)) {
+    text += fmt::format(
+        "The sequences differ{}{}: changes are those of the task too, not of the estimators "
+        "alone.\n",
+        sequences.empty() ? "" : ": ", fmt::join(sequences, "; "));
+  }
+  return text;
 }
 
 std::string summary_text(const Comparison& comparison) {

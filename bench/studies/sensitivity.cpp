@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "bench/metrics/statistics.hpp"
 #include "bench/scoring/score_statistics.hpp"
@@ -91,6 +92,12 @@ std::optional<double> SensitivityRow::largest_change() const {
   return largest;
 }
 
+int SensitivityRow::most_lost() const {
+  int most = 0;
+  for (const SensitivityCell& cell : cells) most = std::max(most, cell.lost - cell.won);
+  return most;
+}
+
 Result<std::vector<SettingVariant>> setting_variants(const std::string& text,
                                                      const std::vector<double>& factors,
                                                      const EstimatorConfigs& base) {
@@ -148,7 +155,7 @@ SettingSensitivity sensitivity_of(const Suite& suite, const std::string& estimat
     sensitivity.rows.back().cells.push_back(cell_of(suite, estimator, variant));
   }
   std::ranges::stable_sort(sensitivity.rows, std::greater<>(), [](const SensitivityRow& row) {
-    return row.largest_change().value_or(-1.0);
+    return std::pair(row.most_lost(), row.largest_change().value_or(-1.0));
   });
   return sensitivity;
 }

@@ -53,13 +53,16 @@ struct SensitivityRow {
 
   /// Largest of |ratio - 1|; none without any ratio.
   std::optional<double> largest_change() const;
+
+  /// Most successes that a factor costs on balance, at least 0.
+  int most_lost() const;
 };
 
 struct SettingSensitivity {
   std::string estimator;             ///< its label
   std::optional<double> median_ate;  ///< [m]
   std::size_t sequences = 0;
-  std::vector<SensitivityRow> rows;  ///< largest change first
+  std::vector<SensitivityRow> rows;  ///< most successes lost first, then largest change
 };
 
 /// Gives every scenario the estimator and its variants. Error as of `setting_variants`.

@@ -15,10 +15,12 @@ constexpr const char* kSensitivityIntroduction =
     "# Sensitivity of `{0}` to its settings\n"
     "\n"
     "One setting at a time, its number times a factor, on the same {1} sequences; all else as\n"
-    "before. Ratios are of the median ATE yaw ({2}), above 1 where the change makes it worse; in\n"
-    "brackets the sequences on which `{0}` alone succeeds (-) and the variant alone (+). A dash\n"
-    "stands where there is nothing to compare: the setting does not allow the value, or the\n"
-    "variant failed or lacks a part of every run. p: sign test of the successes over seeds.\n";
+    "before. Ratios are of the median ATE yaw ({2}), above 1 where the change makes it worse;\n"
+    "\"3 of 5\": over the sequences alone of which the variant lacks no part. In brackets the\n"
+    "sequences on which `{0}` alone succeeds (-) and the variant alone (+). A dash stands where\n"
+    "there is nothing to compare: the setting does not allow the value, or the variant failed or\n"
+    "lacks a part of every run. p: sign test of the successes over seeds. Settings that cost\n"
+    "successes come first, then the largest changes.\n";
 
 const TableColumns<SensitivityCell>& cell_columns() {
   using Cell = SensitivityCell;
@@ -29,8 +31,11 @@ const TableColumns<SensitivityCell>& cell_columns() {
   return columns;
 }
 
-std::string sensitivity_cell_text(const SensitivityCell& cell) {
+/// "1.250, 3 of 5 (-2) p 0.5": of the sequences that have an ATE of both.
+std::string sensitivity_cell_text(const SensitivityCell& cell, std::size_t sequences) {
   std::string text = number_text(cell.ratio, "{:.3f}");
+  if (cell.ratio && cell.pairs < sequences)
+    text += fmt::format(", {} of {}", cell.pairs, sequences);
   if (cell.lost > 0) text += fmt::format(" (-{})", cell.lost);
   if (cell.won > 0) text += fmt::format(" (+{})", cell.won);
   if (cell.lost + cell.won > 0) text += fmt::format(" p {:.2g}", cell.success_p);
@@ -87,7 +92,9 @@ TextTable sensitivity_table(const SettingSensitivity& sensitivity) {
   }
   for (const SensitivityRow& row : sensitivity.rows) {
     std::vector<std::string> cells = {row.key, row.value};
-    for (const SensitivityCell& cell : row.cells) cells.push_back(sensitivity_cell_text(cell));
+    for (const SensitivityCell& cell : row.cells) {
+      cells.push_back(sensitivity_cell_text(cell, sensitivity.sequences));
+    }
     table.rows.push_back(std::move(cells));
   }
   return table;

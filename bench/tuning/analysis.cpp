@@ -98,6 +98,11 @@ std::string text_of(const BestPoint& best, const ResponseTable& table) {
   return best.is_default() ? "no point is better than the defaults: " + values : values;
 }
 
+bool is_resolved(const BestPoint& best, const Effect& effect) {
+  return effect.tells_best() &&
+         (best.is_default() || !best.gain_interval.low || *best.gain_interval.low > 0.0);
+}
+
 Result<BestPoint> best_point(const ResponseTable& table, const Objective& objective) {
   if (objective.divergence_penalty > 0.0 && all_diverged(table)) {
     const bool scored = std::ranges::any_of(table.runs, [](const auto& runs) {
@@ -112,14 +117,19 @@ Result<BestPoint> best_point(const ResponseTable& table, const Objective& object
   }
   const auto all = cases_of(table, "");
   const auto point = least_point(table, objective, all);
-  const bool any_point = std::ranges::any_of(table.points, [&, k = std::size_t{0}](auto&) mutable {
-    return objective_at(table, objective, k++, all).has_value();
-  });
+  bool any_point = false;
+  bool any_other = other_points(table) == 0;
+  for (std::size_t k = 0; k < table.points.size(); ++k) {
+    if (!objective_at(table, objective, k, all)) continue;
+    any_point = true;
+    any_other = any_other || table.points[k] != table.defaults;
+  }
   if (all.empty()) return failure("no sequence has a valid run at every point");
   if (!point || !any_point) {
     return failure(
         fmt::format("none of {} points has a score '{}'", table.points.size(), objective.score));
   }
+  if (!any_other) return failure("no point besides the defaults has a run to compare with them");
   BestPoint best;
   best.point = *point;
   best.values = values_at(table, *point);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/metrics/bootstrap.hpp"
+#include "bench/tuning/effect.hpp"
 #include "bench/tuning/objective.hpp"
 #include "core/error.hpp"
 
@@ -32,6 +33,10 @@ struct BestPoint {
 
   bool is_default() const { return point == kDefaults; }
 };
+
+/// Whether the point is more than the least of a scatter: points differ by more than seeds do, and
+/// where the defaults are not the best, the interval of its gain over them excludes zero.
+bool is_resolved(const BestPoint& best, const Effect& effect);
 
 /// The point with the least objective over the cases; of those alike but for rounding the one next
 /// to the defaults, themselves first. None when none has an objective.

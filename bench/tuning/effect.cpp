@@ -68,8 +68,8 @@ double spread_of(const Rows& columns) {
   return spread;
 }
 
-/// The row whose sum over seeds lies farthest from the mean.
-std::size_t farthest_row(const Rows& rows) {
+/// The row whose sum over seeds lies farthest from the mean, and whether it is above it.
+std::pair<std::size_t, bool> farthest_row(const Rows& rows) {
   std::vector<double> sums;
   double mean = 0.0;
   for (const auto& row : rows) {
@@ -77,7 +77,8 @@ std::size_t farthest_row(const Rows& rows) {
     mean += sums.back() / double(rows.size());
   }
   const auto far = [mean](double a, double b) { return std::abs(a - mean) < std::abs(b - mean); };
-  return static_cast<std::size_t>(std::ranges::max_element(sums, far) - sums.begin());
+  const auto farthest = std::ranges::max_element(sums, far);
+  return {static_cast<std::size_t>(farthest - sums.begin()), *farthest > mean};
 }
 
 std::optional<double> p_of(const Rows& rows, std::size_t seeds) {
@@ -264,7 +265,9 @@ Effect effect_of(const ResponseTable& table, const Objective& objective,
   effect.p = p_of(rows, seeds.size());
   effect.testable = least_p(rows, seeds.size()).value_or(0.0) <= kEffectLevel;
   if (!effect.is_resolved() || !effect.p || rows.size() < kFewestWithoutOne) return effect;
-  rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(farthest_row(rows)));
+  const auto [farthest, is_worse] = farthest_row(rows);
+  effect.one_is_worse = is_worse;
+  rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(farthest));
   effect.of_one_point = least_p(rows, seeds.size()).value_or(1.0) <= kEffectLevel &&
                         p_of(rows, seeds.size()).value_or(0.0) > kEffectLevel;
   return effect;

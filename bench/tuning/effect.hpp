@@ -27,10 +27,13 @@ struct Effect {
   std::size_t saturated = 0;  ///< cases on which every run diverged and counts by the penalty
   bool small = false;         ///< too little to matter, as in comparisons (`smallest_change`)
   bool of_one_point = false;  ///< resolved, and not without the point farthest from the mean
+  bool one_is_worse = false;  ///< that point is worse than the mean: the others tell no best
 
   bool is_none() const;
   /// Beyond the scatter of seeds; with one seed, whose scatter is unknown, more than 5 %.
   bool is_resolved() const;
+  /// Resolved, and not by a single worse point alone, without which seeds scatter as much.
+  bool tells_best() const { return is_resolved() && !(of_one_point && one_is_worse); }
 };
 
 /// With `family` over its scenarios alone.

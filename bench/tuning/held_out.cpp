@@ -74,23 +74,25 @@ std::string small_text(const PairedGain& gain) {
 /// The score as measured and the diverged runs on these cases.
 void measure(const ResponseTable& table, std::size_t point, std::span<const std::size_t> cases,
              PairedGain& gain) {
-  std::vector<double> before;
+  std::vector<double> before;  // where both have a score: medians are of the same runs
   std::vector<double> after;
-  std::vector<double> both_before;
+  std::vector<double> both_before;  // where neither diverged
   std::vector<double> both_after;
   for (const std::size_t i : cases) {
     const RunScore& first = table.default_runs[i];
     const RunScore& second = table.runs[point][i];
-    if (first.value) before.push_back(*first.value);
-    if (second.value) after.push_back(*second.value);
     gain.diverged_before += first.diverged;
     gain.diverged += second.diverged;
-    if (first.diverged || second.diverged || !first.value || !second.value) continue;
+    if (!first.value || !second.value) continue;
+    before.push_back(*first.value);
+    after.push_back(*second.value);
+    if (first.diverged || second.diverged) continue;
     both_before.push_back(*first.value);
     both_after.push_back(*second.value);
   }
   gain.median_before = median(before);
   gain.median_after = median(after);
+  gain.scored = after.size();
   gain.mean_before = mean(both_before);
   gain.mean_after = mean(both_after);
   gain.undiverged = both_after.size();
@@ -102,8 +104,11 @@ std::string measured_text(const PairedGain& gain) {
   std::string text;
   if (gain.median_before && gain.median_after) {
     const std::string unit = gain.unit.empty() ? "" : " " + gain.unit;
-    text = fmt::format("median {} {:.3g} -> {:.3g}{}, ", gain.score, *gain.median_before,
-                       *gain.median_after, unit);
+    const std::string over = gain.scored < gain.sequences
+                                 ? fmt::format(" over the {} with a score of both", gain.scored)
+                                 : "";
+    text = fmt::format("median {} {:.3g} -> {:.3g}{}{}, ", gain.score, *gain.median_before,
+                       *gain.median_after, unit, over);
     if (gain.mean_before && gain.mean_after) {
       text += fmt::format("mean change {:+.2g}{}", *gain.mean_after - *gain.mean_before, unit);
       const bool all = gain.undiverged == gain.sequences;

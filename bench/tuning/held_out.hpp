@@ -27,7 +27,8 @@ struct PairedGain {
   std::string score = {};           ///< what the objective is a statistic of: "ATE yaw"
   std::string key = {};             ///< of scores.json
   std::string unit = {};
-  std::optional<double> median_before;  ///< of the score as measured, with the defaults
+  std::size_t scored = 0;  ///< sequences on which both have a score, whether they diverged or not
+  std::optional<double> median_before;  ///< over them, as measured, with the defaults
   std::optional<double> median_after;   ///< with the values of the point
   std::optional<double> mean_before;    ///< over the sequences on which neither diverged
   std::optional<double> mean_after;     ///< over the same

@@ -129,8 +129,12 @@ std::string text_of(const Objective& objective) {
                         kWithoutScore)
           : fmt::format("a diverged run counts at least {0}, and {0} times their fraction is added",
                         objective.divergence_penalty);
-  return fmt::format("{} of {}{}; {}{}", statistic, objective.score,
-                     objective.relative ? " over that of the defaults" : "", penalty, timing);
+  const char* over = objective.relative ? " over that of the defaults" : "";
+  if (objective.relative && objective.lost_defaults) {
+    over = " over that of the defaults, where these were lost over the median of the points";
+  }
+  if (objective.without_ratio) over = ", as the defaults have 0 on some sequence";
+  return fmt::format("{} of {}{}; {}{}", statistic, objective.score, over, penalty, timing);
 }
 
 std::string value_label(const Objective& objective) {
@@ -245,6 +249,16 @@ std::vector<std::string> families_of(const ResponseTable& table) {
 
 namespace {
 
+/// "python:mine.Mine: ... ValueError: x" of a text with a traceback in it.
+std::string ends_of(const std::string& text) {
+  const auto first = text.find('\n');
+  if (first == std::string::npos) return text;
+  const auto end = text.find_last_not_of(" \n");
+  const auto last = text.rfind('\n', end);
+  const auto begin = text.find_first_not_of(' ', last + 1);
+  return fmt::format("{} ... {}", text.substr(0, first), text.substr(begin, end + 1 - begin));
+}
+
 /// A line per case with runs for which `reason_of` gives a reason: "CASE: N of M runs WHAT
 /// (REASON)".
 template <class ReasonOf>
@@ -263,11 +277,12 @@ std::vector<std::string> lines_of(const ResponseTable& table, const char* what,
       ++counted;
       reason = of_run;
     };
-    look_at(table.default_runs);
+    const bool is_point = std::ranges::find(table.points, table.defaults) != table.points.end();
+    if (!is_point) look_at(table.default_runs);
     for (const auto& of_point : table.runs) look_at(of_point);
     if (counted == 0) continue;
     lines.push_back(fmt::format("{} seed {}: {} of {} runs {} ({})", table.cases[i].scenario,
-                                table.cases[i].seed, counted, runs, what, reason));
+                                table.cases[i].seed, counted, runs, what, ends_of(reason)));
   }
   return lines;
 }
@@ -352,7 +367,15 @@ Result<void> check_direction(const std::string& key, const std::string& score) {
 }
 
 Objective objective_for(Objective objective, const ResponseTable& table) {
-  objective.relative = objective.relative && !table.default_runs.empty();
+  if (!objective.relative) return objective;
+  const auto& defaults = table.default_runs;
+  objective.without_ratio = std::ranges::any_of(cases_of(table, ""), [&](std::size_t i) {
+    return i < defaults.size() && defaults[i].value && !(*defaults[i].value > 0.0);
+  });
+  objective.lost_defaults = std::ranges::any_of(cases_of(table, ""), [&](std::size_t i) {
+    return i < defaults.size() && !defaults[i].value && defaults[i].diverged;
+  });
+  objective.relative = !defaults.empty() && !objective.without_ratio;
   return objective;
 }
 

@@ -27,6 +27,10 @@ struct Objective {
   /// Each score over that of the defaults on the same sequence; where these were lost without one,
   /// over the median of the points.
   bool relative = true;
+  /// Asked to be relative, but the defaults have a score of 0 somewhere: plain scores instead.
+  bool without_ratio = false;
+  /// Relative, and the defaults were lost without a score somewhere.
+  bool lost_defaults = false;
   /// Value of a diverged run, and added times their fraction; 0: it counts by its score.
   double divergence_penalty = 10;
 };
@@ -144,7 +148,7 @@ std::optional<double> gain_over(const std::optional<double>& defaults,
 /// Error, begun with `key`, for a score of which less is not better: objectives are minimized.
 Result<void> check_direction(const std::string& key, const std::string& score);
 
-/// The objective where the table has default runs, else the same of plain scores.
+/// The objective where the table has default runs with scores above 0, else that of plain scores.
 Objective objective_for(Objective objective, const ResponseTable& table);
 
 }  // namespace aims

@@ -59,7 +59,7 @@ PointSummary summary_of(const ResponseTable& table, const Objective& objective, 
 std::vector<PointSummary> summaries_of(const SweepResponse& response, const Objective& objective) {
   const ResponseTable& table = response.table;
   const auto best = best_point(table, objective);
-  const bool resolved = effect_of(table, objective).is_resolved();
+  const bool resolved = best && is_resolved(*best, effect_of(table, objective));
   std::vector<PointSummary> summaries;
   const auto add = [&](std::size_t point) {
     summaries.push_back(summary_of(table, objective, point));

@@ -234,7 +234,7 @@ std::string response_markdown(const ResponseTable& table, const Objective& objec
   std::string text =
       fmt::format("Objective: {}.\n{}", text_of(objective), best_markdown(table, objective, *best));
   const bool outside = best->is_default() && !is_inside(table, table.defaults);
-  const bool known = effect.is_resolved() || outside;  // the effect is that of the ranges
+  const bool known = is_resolved(*best, effect) || outside;  // the effect is that of the ranges
   text += fmt::format("{}: {}.\n{}", known ? "Best values" : "Least objective, not resolved",
                       text_of(*best, table), gain_markdown(*best));
   for (const std::string& line : left_out_lines(table)) text += fmt::format("- {}\n", line);

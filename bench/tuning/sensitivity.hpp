@@ -38,8 +38,9 @@ struct Sensitivity {
   bool is_fitted() const { return surrogate && surrogate->explained() >= kLeastExplained; }
   /// Of a grid, a part of one, or a surrogate that fits.
   bool has_indices() const { return of_grid || of_part || is_fitted(); }
-  /// True when they mean something: there is an effect beyond the scatter of seeds.
-  bool is_resolved() const { return has_indices() && effect.is_resolved(); }
+  /// True when they mean something: there is an effect beyond the scatter of seeds, and not of one
+  /// worse point alone.
+  bool is_resolved() const { return has_indices() && effect.tells_best(); }
   /// True of a parameter whose total index is below 5 % with its entire interval; never where the
   /// indices are not resolved.
   bool is_negligible(std::size_t parameter) const;

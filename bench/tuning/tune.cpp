@@ -82,8 +82,9 @@ class Tuning {
     if (!result_.complete) return false;
     for (std::size_t i = 0; i < result_.tables.size(); ++i) {
       ResponseTable& table = result_.tables[i];
-      const Objective& objective = task.plan.objectives[i];
       table.default_runs = runs_in((**scores).front(), i);
+      Objective& objective = result_.task.plan.objectives[i];
+      objective = objective_for(objective, table);
       if (const auto failed = failed_lines(table); failed.size() == table.cases.size()) {
         return failure("no run with the default values ended: " + failed.front());
       }

@@ -4,8 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
+#include "bench/jobs/sequence_cache.hpp"
 #include "bench/scenario/score_keys.hpp"
 #include "bench/scenario/seeds.hpp"
 #include "bench/scoring/score_list.hpp"
@@ -84,19 +86,22 @@ Result<void> check_seeds(const Scenarios& scenarios, const std::vector<std::uint
   return {};
 }
 
-bool is_among(std::span<const ScenarioSeed> sequences, const std::string& scenario,
-              std::uint64_t seed) {
-  return std::any_of(sequences.begin(), sequences.end(), [&](const ScenarioSeed& each) {
-    return each.seed == seed && each.scenario->name == scenario;
-  });
+/// What tells sequences apart: what is simulated, which files of other names may hold too.
+std::set<std::string> ids_of(std::span<const ScenarioSeed> sequences) {
+  std::set<std::string> ids;
+  for (const ScenarioSeed& each : sequences) {
+    ids.insert(SequenceCache::id_of(*each.scenario, each.seed));
+  }
+  return ids;
 }
 
 /// Adds those that are not among the sequences yet.
 void add_sequences(const Scenarios& scenarios, const std::vector<std::uint64_t>& seeds,
                    std::vector<ScenarioSeed>& sequences) {
+  std::set<std::string> known = ids_of(sequences);
   for (const auto& scenario : scenarios) {
     for (const std::uint64_t seed : seeds) {
-      if (is_among(sequences, scenario->name, seed)) continue;
+      if (!known.insert(SequenceCache::id_of(*scenario, seed)).second) continue;
       sequences.push_back({scenario_of_seed(scenario, seed), seed});
     }
   }
@@ -119,8 +124,9 @@ Result<void> add_held_out(const Scenarios& tuned, const std::vector<std::uint64_
     if (auto right = check_seeds(*others, seeds); !right) return right;
     add_sequences(*others, seeds, task.held_out);
   }
+  const std::set<std::string> tuned_on = ids_of(task.sequences);
   for (const ScenarioSeed& sequence : task.held_out) {
-    if (!is_among(task.sequences, sequence.scenario->name, sequence.seed)) continue;
+    if (!tuned_on.contains(SequenceCache::id_of(*sequence.scenario, sequence.seed))) continue;
     return failure(
         fmt::format("held_out: {} seed {} is also tuned on; expected other seeds or scenarios",
                     sequence.scenario->name, sequence.seed));

@@ -27,7 +27,9 @@ std::optional<Pose> pose_in(MessageCursor& cursor) {
     for (int at = 0; at < 4; ++at) matrix(row, at) = cursor.take<double>();
   }
   const Eigen::Matrix3d R = matrix.topLeftCorner<3, 3>();
+  const Eigen::RowVector4d last_row(0.0, 0.0, 0.0, 1.0);
   const bool rigid = matrix.allFinite() && R.determinant() > 0.0 &&
+                     (matrix.row(3) - last_row).norm() < kRotationTolerance &&
                      (R.transpose() * R - Eigen::Matrix3d::Identity()).norm() < kRotationTolerance;
   if (!rigid) return std::nullopt;
   return Pose{Eigen::Quaterniond(R).normalized(), matrix.topRightCorner<3, 1>()};

@@ -213,6 +213,7 @@ Result<PageData> run_page(const fs::path& folder) {
       {"t0_s", start},
       {"palette", palette_json()},
       {"warnings", member(run->estimate, "warnings")},
+      {"reading", member(run->estimate, "notes")},
       {"failures", failures_json(*run)},
       {"scenario", scenario_json(*run)},
       {"command", repeat_command_json(*run)},

@@ -18,8 +18,8 @@ namespace {
 using Json = PageData::Json;
 
 constexpr Duration kTruthShown = 100 * kMillisecond;
-/// A clock that starts with the run does not get beyond a day.
-constexpr Time kLongestRun = 86400 * kSecond;
+/// A run whose first stamp is less began at 0.
+constexpr Time kAtStart = kSecond;
 
 Trajectory thinned_evenly(const Trajectory& trajectory) {
   Trajectory kept;
@@ -91,7 +91,7 @@ double page_start(const RunFolder& run) {
   if (!first) {
     for (const EstimatorFiles& each : run.estimators) take(each.trajectory);
   }
-  if (!first || std::abs(*first) < kLongestRun) return 0.0;
+  if (!first || std::abs(*first) < kAtStart) return 0.0;
   return to_seconds(*first);
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/jobs/job_store.hpp"
 #include "bench/jobs/stored_results.hpp"
 #include "bench/scoring/json_text.hpp"
 #include "bench/studies/comparison.hpp"
@@ -156,9 +157,11 @@ Result<Json> comparison_of(const fs::path& folder, const fs::path& against) {
   if (!before) return tl::unexpected(before.error());
   const auto after = read_results(folder);
   if (!after) return tl::unexpected(after.error());
-  const Comparison comparison = compare(*before, *after);
+  const Comparison comparison = with_settings(
+      compare(*before, *after), JobStore(against).settings(), JobStore(folder).settings());
   Json json = comparison_json(comparison, folder_name(against), folder_name(folder));
   json["summary"] = summary_text(comparison);
+  json["differs"] = settings_text(comparison);
   return json;
 }
 

@@ -8,12 +8,15 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "bench/scenario/scenario.hpp"
 #include "bench/scoring/json_text.hpp"
+#include "bench/scoring/score_record.hpp"
+#include "bench/scoring/score_statistics.hpp"
 #include "bench/scoring/validity.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "bench/tuning/range_key.hpp"
@@ -180,20 +183,47 @@ Json points_json(const EstimatorRows& own, const std::vector<double>& defaults,
 /// Beyond the values of JobOutcome: on an invalid run.
 constexpr std::uint8_t kInvalidOutcome = 4;
 
-/// The scores of a job by their dotted keys, each read once; none of a job that is not done.
+/// The scores of a job by their dotted keys, each read once; none of a job that is not done, and
+/// the success alone of an estimate that lacks a part of the run.
 std::map<std::string, double> numbers_in(const JobResult& result) {
   std::map<std::string, double> numbers;
   if (result.outcome != JobOutcome::kDone || !result.scores.is_object()) return numbers;
+  const bool partial = is_partial(result.scores);
   visit_leaves(result.scores, "", [&](const std::string& key, const Json& value) {
+    if (partial && !key.starts_with(kSuccessKey)) return;
     if (value.is_number()) numbers.emplace(key, value.get<double>());
     if (value.is_boolean()) numbers.emplace(key, value.get<bool>() ? 1.0 : 0.0);
   });
   return numbers;
 }
 
-Json rows_json(const EstimatorRows& own, const std::vector<std::string>& scores, PageData& page) {
+/// The sequences on which the points of an estimator are compared (`cases_of`).
+using Compared = std::set<std::pair<std::string, std::uint64_t>>;
+
+Result<Compared> compared_in(const MergedSweep& units, const std::string& estimator) {
+  Compared compared;
+  if (units.jobs.empty()) return compared;
+  const auto responses = sweep_responses(units, kSuccessKey);
+  if (!responses) return tl::unexpected(responses.error());
+  for (const SweepResponse& each : *responses) {
+    if (each.estimator != estimator) continue;
+    for (const std::size_t i : cases_of(each.table, "")) {
+      compared.emplace(each.table.cases[i].scenario, each.table.cases[i].seed);
+    }
+  }
+  return compared;
+}
+
+/// The same of the sequences that are tuned on, and of those held out.
+struct ComparedOf {
+  Compared tuned;
+  Compared held_out;
+};
+
+Json rows_json(const EstimatorRows& own, const std::vector<ResponseCase>& sequences,
+               const ComparedOf& compared, const std::vector<std::string>& scores, PageData& page) {
   std::vector<double> point, sequence, values;
-  std::vector<std::uint8_t> outcome, diverged, held_out;
+  std::vector<std::uint8_t> outcome, diverged, held_out, is_compared;
   for (const Row& row : own.rows) {
     point.push_back(static_cast<double>(row.point));
     sequence.push_back(static_cast<double>(row.sequence));
@@ -201,6 +231,9 @@ Json rows_json(const EstimatorRows& own, const std::vector<std::string>& scores,
     outcome.push_back(invalid ? kInvalidOutcome : static_cast<std::uint8_t>(row.result.outcome));
     diverged.push_back(run_score(row.result, "success").diverged ? 1 : 0);
     held_out.push_back(row.held_out ? 1 : 0);
+    const ResponseCase& on = sequences[row.sequence];
+    const Compared& with = row.held_out ? compared.held_out : compared.tuned;
+    is_compared.push_back(with.contains({on.scenario, on.seed}) ? 1 : 0);
     const auto known = invalid ? std::map<std::string, double>() : numbers_in(row.result);
     for (const std::string& key : scores) {
       const auto found = known.find(key);
@@ -209,7 +242,8 @@ Json rows_json(const EstimatorRows& own, const std::vector<std::string>& scores,
   }
   return {{"point", page.f32(point)},      {"sequence", page.f32(sequence)},
           {"outcome", page.u8(outcome)},   {"diverged", page.u8(diverged)},
-          {"held_out", page.u8(held_out)}, {"scores", page.f32(values)}};
+          {"held_out", page.u8(held_out)}, {"compared", page.u8(is_compared)},
+          {"scores", page.f32(values)}};
 }
 
 /// What was varied: "Sweep of degeneracy.eta and degeneracy.kappa".
@@ -256,12 +290,17 @@ Result<Json> estimators_json(const TuningSource& source, const VariedParameters&
   for (const EstimatorRows& own : all.estimators) {
     const auto defaults = default_values(own.estimator, varied);
     if (!defaults) return tl::unexpected(defaults.error());
+    auto tuned = compared_in(source.units, text_of(own.estimator));
+    if (!tuned) return tl::unexpected(tuned.error());
+    auto held_out = compared_in(source.held_out, text_of(own.estimator));
+    if (!held_out) return tl::unexpected(held_out.error());
+    const ComparedOf compared{std::move(*tuned), std::move(*held_out)};
     auto analyses = analyses_json(source, text_of(own.estimator), own.points, page);
     if (!analyses) return analyses;
     json.push_back({{"name", text_of(own.estimator)},
                     {"parameters", parameters_json(varied, *defaults)},
                     {"points", points_json(own, *defaults, source, page)},
-                    {"rows", rows_json(own, scores, page)},
+                    {"rows", rows_json(own, all.sequences, compared, scores, page)},
                     {"analyses", std::move(*analyses)}});
   }
   return json;

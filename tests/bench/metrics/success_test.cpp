@@ -104,6 +104,21 @@ TEST(Success, FailsWhereTheEstimateHasAGap) {
   EXPECT_EQ(verdict.diverged_at, from_seconds(10.0));
 }
 
+// Errors of such an estimate are those of a part of the run, whatever failed first.
+TEST(Success, SaysThatPosesAreMissingAfterAnErrorBeyondTheLimit) {
+  Trajectory estimate = test::estimated_walk([](double, Pose pose) {
+    pose.translation.x() *= 0.9;
+    return pose;
+  });
+  EXPECT_EQ(verdict_of(estimate).reason, FailureReason::kErrorLimit);
+  EXPECT_FALSE(verdict_of(estimate).partial);
+  estimate.resize(500);
+  EXPECT_EQ(verdict_of(estimate).reason, FailureReason::kErrorLimit);
+  EXPECT_TRUE(verdict_of(estimate).partial);
+  EXPECT_TRUE(verdict_of({}).partial);
+  EXPECT_FALSE(verdict_of(test::perfect_walk()).partial);
+}
+
 TEST(Success, AllowsTheTimeToInitializeButNoMore) {
   Trajectory estimate = test::perfect_walk();
   estimate.erase(estimate.begin(), estimate.begin() + 30);

@@ -32,6 +32,28 @@ TEST(MotionOffset, IsThatOfTheMotionNotOfTheFirstPoses) {
   EXPECT_NEAR(half->seconds, 40.0, 0.03);
 }
 
+// Speeds of a long recording are compared on a grid of seconds first.
+TEST(MotionOffset, OfTwoHoursIsAsExact) {
+  Trajectory truth;
+  Trajectory estimate;
+  double x = 0.0;
+  std::uint64_t random = 1;
+  bool walks = false;
+  for (int i = 0; i < 20 * 6800; ++i) {
+    if (i % 100 == 0) {
+      random = random * 6364136223846793005ULL + 1442695040888963407ULL;
+      walks = (random >> 40U) % 3 != 0;
+    }
+    if (walks) x += 0.03;
+    const Pose pose{Eigen::Quaterniond::Identity(), {x, 0.0, 0.0}};
+    truth.push_back({from_seconds(0.05 * i), pose});
+    if (i >= 220) estimate.push_back({from_seconds(0.05 * i + 50000.0), pose});
+  }
+  const auto offset = motion_offset(estimate, truth);
+  ASSERT_TRUE(offset);
+  EXPECT_NEAR(offset->seconds, -50000.0, 0.01);
+}
+
 TEST(MotionOffset, OfAWalkWithoutAStopIsNotKnown) {
   EXPECT_FALSE(motion_offset(walk(1.5, 60.0, 1000.0, false), walk(0.0, 60.0, 0.0, false)));
   EXPECT_FALSE(motion_offset({}, walk(0.0, 60.0, 0.0)));

@@ -100,6 +100,7 @@ TEST(Ablation, RatiosAreOfMediansAndTheirMeanOverScenariosIsGeometric) {
   EXPECT_NEAR(*ablation.cases[0].rows[1].cells[0].median, 0.4, 1e-12);
   EXPECT_NEAR(*ablation.cases[0].rows[1].cells[0].ratio, 2.0, 1e-12);
   EXPECT_FALSE(ablation.effects[1].ratios[3]) << "no run has M_list";
+  EXPECT_EQ(ablation.effects[1].compared, 6U);
 }
 
 TEST(Ablation, DoesAllVariantsOnOneSequenceAndContinues) {

@@ -247,6 +247,26 @@ TEST(Compare, AnEstimateThatEndsEarlyIsComparedByItsSuccessAlone) {
   EXPECT_EQ(comparison.partial, std::vector<std::string>{"after: walk, aims, seed 1,2,3,4,5,6"});
 }
 
+// Of one name, but of another task or another estimator.
+TEST(Compare, NamesSequencesAndLabelsThatAreOtherOnes) {
+  StoredResults before = results(kBefore);
+  for (RunRecord& run : before["walk"]) {
+    run.scores["simulated_s"] = 33.0;
+    run.specs = {{"aims", "aims_d"}};
+  }
+  StoredResults after = before;
+  EXPECT_EQ(settings_text(compare(before, after)), "");
+  after["walk"][1].scores["simulated_s"] = 45.0;
+  after["walk"][2].specs["aims"] = "aims_d+legs.enabled=false";
+  const Comparison comparison = compare(before, after);
+  EXPECT_EQ(comparison.other_sequences, std::vector<std::string>{"walk, seed 2"});
+  EXPECT_EQ(comparison.other_specs,
+            std::vector<std::string>{"aims: aims_d before, aims_d+legs.enabled=false after"});
+  const std::string text = settings_text(comparison);
+  EXPECT_NE(text.find("The sequences differ: walk, seed 2"), std::string::npos) << text;
+  EXPECT_NE(text.find("One label, two estimators: aims"), std::string::npos) << text;
+}
+
 TEST(Compare, OfAnEstimatorThatFailedOnAllRunsIsTheSameBothWays) {
   const StoredResults whole = results(kBefore);
   StoredResults failed = whole;

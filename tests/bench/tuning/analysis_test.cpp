@@ -267,6 +267,8 @@ TEST(Effect, OfASinglePointOrASmallOneIsSaidToBeThat) {
   const Effect single = effect_of(of(1.0, 0.5, 0.01), absolute());
   ASSERT_TRUE(single.is_resolved());
   EXPECT_TRUE(single.of_one_point);
+  EXPECT_FALSE(single.tells_best()) << "the point is worse, and the others do not differ";
+  EXPECT_TRUE(effect_of(of(1.0, -0.5, 0.01), absolute()).tells_best()) << "it is the best one";
   EXPECT_FALSE(single.small);
   EXPECT_NE(text_of(single).find("by a single point alone"), std::string::npos) << text_of(single);
   EXPECT_NE(text_of(single).find("permutation test on the variance over points of their sums over "

@@ -124,6 +124,28 @@ TEST(FailedRunsOfTuning, RepeatedPointsAreNoFurtherEvidence) {
   EXPECT_EQ(other_points(table), 4U);
 }
 
+// A point at which a run is lost and another is 3 s bad is not the best because it has a ratio.
+TEST(Objective, WithoutARatioWhereTheDefaultsScoreZero) {
+  ResponseTable table;
+  table.ranges = {{.key = "n", .low = 0.0, .high = 2.0}};
+  table.defaults = {0.0};
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) table.cases.push_back({"walk", "walk", seed});
+  table.default_runs = {{0.0}, {0.0}, {0.0}};
+  table.points = {{0.0}, {1.0}, {2.0}};
+  table.runs = {table.default_runs, {{0.0}, {0.0}, {0.0}}, {{3.0, true}, {1.0}, {0.5}}};
+  const Objective used = objective_for({.score = "health.degraded_s"}, table);
+  EXPECT_FALSE(used.relative);
+  EXPECT_NE(text_of(used).find("the defaults have 0"), std::string::npos) << text_of(used);
+  const auto best = best_point(table, used);
+  ASSERT_TRUE(best) << best.error().message;
+  EXPECT_TRUE(best->is_default());
+  EXPECT_EQ(best->defaults, 0.0);
+  table.default_runs[0].value = 0.1;
+  table.default_runs[1].value = 0.2;
+  table.default_runs[2].value = 0.3;
+  EXPECT_TRUE(objective_for({}, table).relative);
+}
+
 // A piece of the run has a small error, which is no merit.
 TEST(FailedRunsOfTuning, AnEstimateThatLacksAPartOfTheRunHasNoScore) {
   JobResult job;
@@ -132,6 +154,8 @@ TEST(FailedRunsOfTuning, AnEstimateThatLacksAPartOfTheRunHasNoScore) {
   EXPECT_TRUE(run_score(job, "ate_m").diverged);
   job.scores["diverged_reason"] = "error_limit";
   EXPECT_EQ(run_score(job, "ate_m").value, 1e-5);
+  job.scores["partial"] = true;
+  EXPECT_FALSE(run_score(job, "ate_m").value) << "it exceeded the limit, then it stopped";
   Objective counts_scores;
   counts_scores.divergence_penalty = 0.0;
   const std::vector<RunScore> defaults = {{std::nullopt, true}};

@@ -201,6 +201,8 @@ export interface RunPayload extends PagePayload {
   notes?: string[] | null;
   /** Assumptions about a recording that may decide its result. */
   warnings?: string[] | null;
+  /** How a recording was read, and what was left out of the estimates. */
+  reading?: string[] | null;
   /** Estimators that failed. */
   failures?: Failure[] | null;
   /** Every stamp is in seconds after this one [s]. */

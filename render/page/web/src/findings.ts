@@ -138,10 +138,11 @@ export function finding(list: Finding[], route: Route): string {
   if (known.length === 0) return withoutLengths(list);
   const what = route.corridor ? "the corridor's length" : "the distances between the reference points";
   const good = known.filter((each) => each.success && each.percent! <= kWrong)
-    .sort((a, b) => a.percent! - b.percent!);
+    .sort((a, b) => Number(Boolean(a.fails)) - Number(Boolean(b.fails)) || a.percent! - b.percent!);
   const bad = losers(list);
   const shown = bad.slice(0, 2).map((each) => lossText(each, route));
   shown.push(...moreText(bad.slice(2), bad.slice(0, 2)));
+  shown.push(...good.filter((each) => each.fails).map((each) => `${each.name} fails on ${each.fails}`));
   const loss = shown.length > 0 ? `; ${shown.join("; ")}` : "";
   if (good.length === 0) return `${noneText(list, what)}${loss}.`;
   const limit = Math.max(kAlike, kFactor * good[0]!.percent!);
@@ -149,7 +150,7 @@ export function finding(list: Finding[], route: Route): string {
   const rest = good.length > best.length
     ? `, ${listed(good.slice(best.length, best.length + 3).map((each) => `${each.name} within ${mostText([each])}`))}` : "";
   const names = listed(best.map((each) => each.name));
-  if (bad.length === 0 && best.length === list.length && list.length > 1 && worstAlike(best)) {
+  if (shown.length === 0 && best.length === list.length && list.length > 1 && worstAlike(best)) {
     const runs = best[0]!.worst === null ? "this run does" : "these runs do";
     return `${names} ${list.length === 2 ? "both" : "all"} keep ${what} within ${mostText(best)}: ${runs} not separate them by it.`;
   }

@@ -185,6 +185,8 @@ test("over several seeds the sentence names median and worst, and separates by e
     "a and b both keep the corridor's length within 0.20 % in the median and 0.30 % at worst: these runs do not separate them by it.");
   assert.equal(page.finding([a, { ...one, name: "b", percent: 0.2, worst: 0.62 }], route),
     "a and b keep the corridor's length within 0.20 % in the median and 0.62 % at worst.");
+  assert.equal(page.finding([{ ...a, name: "b", fails: "2 of 5 seeds" }, { ...a, percent: 0.2 }], route),
+    "a and b keep the corridor's length within 0.20 % in the median and 0.21 % at worst; b fails on 2 of 5 seeds.");
 });
 
 test("where nothing differs the sentence says so", () => {

@@ -146,6 +146,7 @@ export function tuning({ parameter = "degeneracy.eta", scenarios = ["corridor", 
       rows: {
         point: Float32Array.from(column((row) => row.k)), sequence: Float32Array.from(column((row) => row.w)), outcome: Uint8Array.from(column((row) => (row.diverged ? 1 : 0))),
         diverged: Uint8Array.from(column((row) => (row.diverged ? 1 : 0))), held_out: new Uint8Array(rows.length),
+        compared: new Uint8Array(rows.length).fill(1),
         scores: Float32Array.from(rows.flatMap((row) => [row.score, row.score / 2])),
       },
       analyses: [analysis],

@@ -149,24 +149,30 @@ export function mostOf(track: ErrorTrack, from = 0): number {
   return track.error.reduce((most, error, i) => (i >= from && error > most ? error : most), 0);
 }
 
-/** What is missing of an estimate that fails by that, e.g. "has no poses for 12 s, from 34 s on"; null: nothing. */
-export function missingText(data: RunPayload, name: string): string | null {
-  const estimator = data.estimators.find((item) => item.name === name);
-  const { t, p } = estimator?.series ?? {};
-  const truth = data.truth?.t;
-  const reason = at(data.scores, "estimators", name, "diverged_reason");
-  if (!t || !p || !truth || truth.length === 0) return null;
-  const stamps = [...t].filter((_, i) => Number.isFinite(p[3 * i]!));
-  if (stamps.length === 0) return null;
-  if (reason === "starts_late") return `has no poses for the first ${(stamps[0]! - truth[0]!).toFixed(0)} s`;
-  if (reason === "ends_early") return `has no poses for the last ${(truth[truth.length - 1]! - stamps[stamps.length - 1]!).toFixed(0)} s`;
-  if (reason !== "gap") return null;
+/** The longest stretch of the truth's time without poses: "for the first 12 s", "for 12 s, from 34 s on". */
+function longestHole(stamps: number[], first: number, last: number): string {
+  const [start, end] = [stamps[0]! - first, last - stamps[stamps.length - 1]!];
   let [longest, from] = [0, 0];
   for (let i = 1; i < stamps.length; ++i) {
     const step = stamps[i]! - stamps[i - 1]!;
     if (step > longest) [longest, from] = [step, stamps[i - 1]!];
   }
-  return `has no poses for ${longest.toFixed(0)} s, from ${from.toFixed(0)} s on`;
+  if (start >= Math.max(end, longest)) return `for the first ${start.toFixed(0)} s`;
+  return end >= longest ? `for the last ${end.toFixed(0)} s` : `for ${longest.toFixed(0)} s, from ${from.toFixed(0)} s on`;
+}
+
+/** What is missing of an estimate of a part of the run, e.g. "has no poses for 12 s, from 34 s on"; null: nothing. */
+export function missingText(data: RunPayload, name: string): string | null {
+  const estimator = data.estimators.find((item) => item.name === name);
+  const own = at(data.scores, "estimators", name);
+  const [invalid, poses] = [at(own, "poses_invalid"), at(own, "poses")];
+  if (isNumber(invalid) && isNumber(poses) && invalid > 0) return `returned ${invalid} of ${poses} poses that are none`;
+  const { t, p } = estimator?.series ?? {};
+  const truth = data.truth?.t;
+  const isPartial = ["starts_late", "ends_early", "gap"].includes(String(at(own, "diverged_reason"))) || at(own, "partial") === true;
+  if (!isPartial || !t || !p || !truth || truth.length === 0) return null;
+  const stamps = [...t].filter((_, i) => Number.isFinite(p[3 * i]!));
+  return stamps.length === 0 ? null : `has no poses ${longestHole(stamps, truth[0]!, truth[truth.length - 1]!)}`;
 }
 
 /** At most `count` samples of a track, evenly, with the last one, and those of gaps. */

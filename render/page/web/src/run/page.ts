@@ -13,9 +13,9 @@ import { overviewCharts, visibility } from "./overview";
 import { detailSection, leadSection } from "./results";
 import { cursorTimes, timeSpan } from "./series";
 import { keepInAddress, stateIn } from "./state_url";
-import { Store, type State } from "./store";
+import { nearestIndex, Store, type State } from "./store";
 import { timeline } from "./timeline";
-import { failureBox, hintBox, verdictBox, warningBox } from "./verdict";
+import { failureBox, hintBox, readingBox, verdictBox, warningBox } from "./verdict";
 import { viewCard } from "./view";
 
 function badge(text: string, kind: "good" | "bad" | "plain"): HTMLElement {
@@ -109,6 +109,13 @@ function firstChoice(data: RunPayload): number {
   return intact >= 0 ? intact : data.estimators.length - 1 < 0 ? -1 : 0;
 }
 
+/** Of the cursor's instants the one next to the middle of the truth, where errors are known; else of themselves. */
+function middleOf(data: RunPayload, times: number[]): number | undefined {
+  const truth = data.truth?.t;
+  const whole = truth && truth.length > 0 ? truth : times;
+  return times[nearestIndex(times, (whole[0]! + whole[whole.length - 1]!) / 2)];
+}
+
 /** What is drawn again in the colours of each theme. */
 function themed(make: () => HTMLElement | null): HTMLElement {
   const frame = h("div", {}, make() ?? "");
@@ -121,7 +128,7 @@ export function renderRun(root: HTMLElement, data: RunPayload): void {
   const times = cursorTimes(data);
   const span = timeSpan(data);
   const first: State = {
-      cursor: times[Math.floor(times.length / 2)] ?? span[0],
+      cursor: middleOf(data, times) ?? span[0],
       from: span[0],
       to: span[1],
       chosen: firstChoice(data),
@@ -150,6 +157,7 @@ export function renderRun(root: HTMLElement, data: RunPayload): void {
     verdictBox(data),
     failureBox(data) ?? "",
     warningBox(data) ?? "",
+    readingBox(data) ?? "",
     hintBox(data) ?? "",
     (charts && visibility(data, store)) ?? "",
     overview,

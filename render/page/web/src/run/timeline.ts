@@ -20,18 +20,17 @@ function controls(store: Store): HTMLElement {
   const slider = h("input", {
     type: "range",
     class: "scrubber",
-    min: 0,
-    max: Math.max(store.times.length - 1, 0),
-    step: 1,
+    min: store.times[0] ?? 0,
+    max: store.times[store.times.length - 1] ?? 0,
+    step: "any",
     "aria-label": "Cursor",
-    oninput: () => store.moveTo(store.times[Number(slider.value)] ?? 0),
+    oninput: () => store.moveTo(Number(slider.value)),
   });
   const clock = h("output", { class: "clock", "data-clock": true });
   const play = h("button", { type: "button", class: "quiet", "aria-pressed": "false" }, "Play");
   player(store, play);
   const show = () => {
-    const index = store.index();
-    slider.value = String(Math.max(index, 0));
+    slider.value = String(store.state.cursor);
     const text = store.times.length > 0 ? `${formatFixed(store.state.cursor, 1)} s` : "no samples";
     slider.setAttribute("aria-valuetext", text);
     clock.textContent = text;

@@ -132,6 +132,18 @@ export function warningBox(data: RunPayload): HTMLElement | null {
   );
 }
 
+/** How the recording was read; null without notes. */
+export function readingBox(data: RunPayload): HTMLElement | null {
+  const notes = (data.reading ?? []).filter((each) => typeof each === "string");
+  if (notes.length === 0) return null;
+  return h(
+    "details",
+    { open: true, "data-reading": notes.length },
+    h("summary", {}, "How the recording was read"),
+    h("ul", { class: "notes" }, ...notes.map((each) => h("li", {}, each))),
+  );
+}
+
 /** Estimators that failed, each with the first line of its message; null without any. */
 export function failureBox(data: RunPayload): HTMLElement | null {
   const failures = failuresOf(data);

@@ -79,6 +79,7 @@ export function compareSection(data: SuitePayload): HTMLElement | null {
   draw();
   return section("compare", `${compare.after} against ${compare.before}`,
     compare.summary ? h("p", {}, compare.summary) : null,
+    compare.differs ? h("div", { class: "banner", role: "alert" }, compare.differs) : null,
     h("div", { class: "toolbar" },
       choice("Verdict", [
         { value: "decided", label: "better or worse" },

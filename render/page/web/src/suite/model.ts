@@ -156,6 +156,8 @@ export interface Comparison {
   before: string;
   after: string;
   summary?: string;
+  /** What differs beside the results: settings, sequences, estimators of one label. */
+  differs?: string;
   changes: ScoreChange[];
   /** Runs on which an estimator fails on one side alone; older results do not say. */
   fails_now?: string[];

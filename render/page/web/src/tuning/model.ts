@@ -122,7 +122,11 @@ export interface TunedEstimator {
   parameters: Parameter[];
   points: { values: Numbers; untuned: Uint8Array; generation: Numbers | null };
   /** A job each: point, sequence, outcome (0 done, 1 failed, 2 crashed, 3 timed out, 4 invalid run), scores, job by job. */
-  rows: { point: Numbers; sequence: Numbers; outcome: Uint8Array; diverged: Uint8Array; held_out: Uint8Array; scores: Numbers };
+  rows: {
+    point: Numbers; sequence: Numbers; outcome: Uint8Array; diverged: Uint8Array; held_out: Uint8Array; scores: Numbers;
+    /** Whether points are compared on its sequence: all that count have a valid run there. */
+    compared: Uint8Array;
+  };
   analyses: Analysis[];
 }
 
@@ -163,6 +167,9 @@ function median(values: number[]): number {
   return known.length % 2 === 1 ? known[middle]! : (known[middle - 1]! + known[middle]!) / 2;
 }
 
+/** The outcome of a job on an invalid run. */
+const kInvalid = 4;
+
 /** Which sequences of the data are chosen. */
 export interface SequenceChoice {
   /** null: all. */
@@ -170,7 +177,7 @@ export interface SequenceChoice {
   heldOut: boolean;
 }
 
-/** The estimator's points that were run on any of these sequences, with the median of that score. */
+/** The estimator's points that were run on any of these sequences, with the median of that score over those compared. */
 export function pointsOf(data: TuningPayload, own: TunedEstimator, score: string, choice: SequenceChoice): Point[] {
   const count = own.parameters.length;
   const column = data.scores.indexOf(score);
@@ -182,6 +189,7 @@ export function pointsOf(data: TuningPayload, own: TunedEstimator, score: string
     if ((own.rows.held_out[row] === 1) !== choice.heldOut) return;
     if (choice.scenario !== null && sequence?.scenario !== choice.scenario) return;
     if (!values.has(point)) values.set(point, []);
+    if (own.rows.compared[row] !== 1 || own.rows.outcome[row] === kInvalid) return;
     values.get(point)!.push(column < 0 ? NaN : own.rows.scores[row * width + column]!);
     diverged.set(point, (diverged.get(point) ?? 0) + own.rows.diverged[row]!);
   });

@@ -147,6 +147,11 @@ function interactions(own: TunedEstimator, second: number[][]): HTMLElement | nu
   return pairs.length > 0 ? h("p", {}, `${pairs.join("; ")}.`) : null;
 }
 
+/** Whether jobs of this choice are on sequences on which points are not compared. */
+function leftOut(own: TunedEstimator, choice: SequenceChoice): boolean {
+  return own.rows.compared.some((each, row) => each !== 1 && (own.rows.held_out[row] === 1) === choice.heldOut);
+}
+
 /** Every point with its values, its objective over all sequences that are tuned on, and the median of the score. */
 export function pointTable(
   data: TuningPayload, own: TunedEstimator, analysis: Analysis | undefined, score: string, choice: SequenceChoice
@@ -175,7 +180,8 @@ export function pointTable(
   ];
   if (own.points.generation) columns.push({ title: "generation", value: (point) => point.generation, show: (point) => formatFixed(point.generation, 0) });
   return sortableTable(points, columns, {
-    caption: `${points.length} points, median of ${score} over ${choice.scenario ?? "all sequences"}${choice.heldOut ? ", held out" : ""}`,
+    caption: `${points.length} points, median of ${score} over ${choice.scenario ?? "all sequences"}${choice.heldOut ? ", held out" : ""}` +
+      (leftOut(own, choice) ? "; points are compared on the sequences alone on which each has a valid run" : ""),
     rowName: (point) => String(point.index), sortBy: 1,
   });
 }
