@@ -8,6 +8,8 @@
 
 namespace aims {
 
+struct WrittenPages;
+
 /// Each declares one command; `scenarios` is where bare scenario names are looked up.
 void declare_run(Command command, const std::filesystem::path& scenarios);
 void declare_suite(Command command, const std::filesystem::path& scenarios);
@@ -37,9 +39,11 @@ void declare_config(Command command, const std::filesystem::path& scenarios);
 void declare_list(Command command, const std::filesystem::path& scenarios);
 void declare_completion(Command command, const std::filesystem::path& scenarios);
 
-/// Writes the pages of a folder that was just filled and prints where they are; unless `quiet`,
-/// shows which one is being written. A page that cannot be written is a warning: the results are
-/// there.
+/// Prints where pages are. Those that cannot be written are a warning: the results are there.
+void print_written(const Result<WrittenPages>& written);
+
+/// Writes the pages of a folder that was just filled and prints where they are, as above; unless
+/// `quiet`, shows which one is being written.
 void write_pages_of(const std::filesystem::path& folder, bool quiet);
 
 /// Writes the page of one folder whose results are still to appear; prints nothing.

@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 struct ConvertArguments {
   SharedOptions shared;
   std::vector<std::string> files;
+  std::vector<std::string> drop;
   std::string compression = "none";
   bool recover = false;
 };
@@ -28,7 +29,8 @@ int convert_command(const ConvertArguments& arguments) {
                                   shared.overwrite,
                                   arguments.recover,
                                   *compression_named(arguments.compression),
-                                  further(arguments.files)};
+                                  further(arguments.files),
+                                  arguments.drop};
   watch_interrupt();
   ProgressDisplay display(arguments.files.front(), shared.quiet, "converted");
   const auto outcome =
@@ -57,18 +59,21 @@ void declare_convert(Command command, const fs::path& /*scenarios*/) {
   command.option("-o,--out", shared.out,
                  "Recording to write: NAME.bag, NAME.mcap, or NAME/ for rosbag2",
                  Presence::kRequired);
+  command.list("--drop", arguments->drop, "Topics to leave out, e.g. /camera/image,/tf");
   add_compression(command, arguments->compression);
   command.flag("--recover", arguments->recover, "Read the intact part of a damaged recording");
   add_overwrite(command, shared);
   add_quiet(command, shared);
   command.footer(
-      "Every value and record time is kept. Messages of ROS 1 become those of ROS 2 in .mcap and "
+      "Every value and record time of a topic that stays is kept. Messages of ROS 1 become those "
+      "of ROS 2 in .mcap and "
       "in\n"
       "folders of rosbag2, whose names end in /; from ROS 2 to a ROS 1 bag there is no "
       "conversion.\n"
       "Examples:\n"
       "  aims convert robot.bag --out robot.mcap --compression zstd\n"
       "  aims convert robot.mcap --out robot/\n"
+      "  aims convert robot.bag --drop /camera/image --out small.bag\n"
       "  aims convert damaged.mcap --recover --out intact.mcap");
   command.action([arguments] { return convert_command(*arguments); });
 }

@@ -30,8 +30,8 @@ int groups_command(const GroupsArguments& arguments) {
   if (arguments.json) {
     print_json(groups_json(*groups, arguments.by, arguments.folder));
   } else {
-    print_out("By {}; medians over the valid runs\n{}\n", arguments.by,
-              to_text(groups_table(*groups)));
+    print_out("By {}; medians over the valid runs\n{}{}\n", arguments.by,
+              to_text(groups_table(*groups)), groups_legend(*groups));
     for (const DrawnGroup& group : *groups) {
       if (group.invalid == 0) continue;
       print_out("{}, {}: {} INVALID RUNS left out\n", group.scenario, group.label, group.invalid);

@@ -13,6 +13,8 @@
 #include "cli/options.hpp"
 #include "cli/sweep_results.hpp"
 #include "cli/terminal.hpp"
+#include "core/counted.hpp"
+#include "render/page/page.hpp"
 #include "render/page/tuning_source.hpp"
 
 namespace aims {
@@ -53,6 +55,17 @@ bool lacks_score(const MergedSweep& sweep, const std::string& key) {
   return done;
 }
 
+void print_notes(const MergedSweep& sweep) {
+  if (sweep.repeated > 0) {
+    print_out("note: {} failed in one folder and {} done in another, which counts\n",
+              counted(sweep.repeated, "job"), sweep.repeated == 1 ? "is" : "are");
+  }
+  if (sweep.others > 0) {
+    print_out("note: {} of another plan, code or scenario version {} left out\n",
+              counted(sweep.others, "result"), sweep.others == 1 ? "is" : "are");
+  }
+}
+
 int merge_command(const MergeArguments& arguments) {
   const std::vector<fs::path> folders(arguments.folders.begin(), arguments.folders.end());
   if (folders.size() > 1 && arguments.shared.out.empty()) {
@@ -76,17 +89,10 @@ int merge_command(const MergeArguments& arguments) {
   print_out("{}\n", to_text(merge_table(*sweep)));
   print_points(*sweep, arguments.objective);
   print_open(*sweep);
-  if (sweep->repeated > 0) {
-    print_out("note: {} jobs failed in one folder and are done in another: they count as done\n",
-              sweep->repeated);
-  }
-  if (sweep->others > 0) {
-    print_out("note: {} results of another plan, code or scenario version are left out\n",
-              sweep->others);
-  }
+  print_notes(*sweep);
   print_out("{} of {} jobs done: {}, sweep.csv, sweep.md\n", sweep->count("done"),
             sweep->jobs.size(), (out / "sweep.sqlite").string());
-  if (folders.size() == 1 && holds_tuning(out)) write_pages_of(out, arguments.shared.quiet);
+  print_written(write_merged_page(merged_source(*sweep, arguments.objective), out));
   const std::size_t invalid = sweep->count("invalid");
   if (sweep->count("done") + invalid < sweep->jobs.size()) return kExpectationFailed;
   return invalid == 0 ? kOk : kInvalidRun;
@@ -105,7 +111,7 @@ void declare_merge(Command command, const fs::path& /*scenarios*/) {
                  "Value of a diverged run in the objective, of which the fraction of\n"
                  "diverged runs is added too (10)");
   command.footer(
-      "Writes sweep.sqlite, sweep.csv and sweep.md; of one folder the page too.\n"
+      "Writes sweep.sqlite, sweep.csv, sweep.md and the page.\n"
       "Examples:\n"
       "  aims merge out/sweep\n"
       "  sqlite3 out/sweep/sweep.sqlite \"SELECT p.value, avg(s.value) FROM parameters p\n"

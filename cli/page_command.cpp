@@ -68,15 +68,19 @@ int page_command(const PageArguments& arguments) {
 
 }  // namespace
 
-void write_pages_of(const fs::path& folder, bool quiet) {
-  DrawDisplay display(quiet || !is_terminal());  // elsewhere the line "page: ..." is enough
-  const auto written = write_pages(folder, {}, display.observer());
-  display.close();
+void print_written(const Result<WrittenPages>& written) {
   if (written) {
     print_pages(*written);
   } else {
     print_out("warning: no page: {}\n", written.error().message);
   }
+}
+
+void write_pages_of(const fs::path& folder, bool quiet) {
+  DrawDisplay display(quiet || !is_terminal());  // elsewhere the line "page: ..." is enough
+  const auto written = write_pages(folder, {}, display.observer());
+  display.close();
+  print_written(written);
 }
 
 Result<void> write_page_of(const fs::path& folder, bool quiet) {

@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "bench/scoring/failure_reasons.hpp"
 #include "bench/scoring/score_table.hpp"
@@ -37,6 +39,7 @@ constexpr std::size_t kMostTables = 6;
 
 /// The table of scores of each scenario, as `aims run` prints it.
 void print_scenarios(const Suite& suite) {
+  std::vector<std::span<const RunRecord>> tables;
   const SuiteCase* last = nullptr;
   for (const SuiteCase& each : suite.cases) {
     if (each.runs.empty()) continue;
@@ -45,9 +48,10 @@ void print_scenarios(const Suite& suite) {
     for (const std::string& line : failure_lines(each.runs)) print_out("no success: {}\n", line);
     print_invalid_poses(each);
     print_out("\n");
+    tables.emplace_back(each.runs);
     last = &each;
   }
-  if (last != nullptr) print_out("{}\n", score_legend(last->runs, last->scenario.scoring));
+  if (last != nullptr) print_out("{}\n", legend_of_tables(tables, last->scenario.scoring));
 }
 
 void print_matrices(const Suite& suite) {

@@ -10,6 +10,7 @@
 #include "bench/tuning/sweep_plan.hpp"
 #include "bench/tuning/sweep_summary.hpp"
 #include "cli/terminal.hpp"
+#include "core/counted.hpp"
 
 namespace aims {
 namespace {
@@ -52,12 +53,14 @@ void print_points(const MergedSweep& sweep, const Objective& objective) {
   if (table.rows.empty()) return;
   print_out("{}", to_text(table));
   if (points > table.rows.size()) {
-    print_out("and {} points of larger objective, on the page and in sweep.csv\n",
-              points - table.rows.size());
+    print_out("and {} of larger objective, on the page and in sweep.csv\n",
+              counted(points - table.rows.size(), "point"));
   }
   std::size_t incomplete = 0;
   for (const SweepResponse& each : *responses) incomplete += each.incomplete;
-  if (incomplete > 0) print_out("{} points are not complete\n", incomplete);
+  if (incomplete > 0) {
+    print_out("{} {} not complete\n", counted(incomplete, "point"), incomplete == 1 ? "is" : "are");
+  }
   if (const std::string open = unstarted_text(sweep); !open.empty()) print_out("{}\n", open);
   std::vector<std::string> texts;
   for (const SweepResponse& each : *responses) {

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/estimate/convert.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include "bench/estimate/new_recording.hpp"
+#include "core/config.hpp"
 #include "core/stopwatch.hpp"
 
 namespace aims {
@@ -27,6 +31,26 @@ Result<ConversionOutcome> write_recording(MessageSource& source, const fs::path&
   });
 }
 
+/// Restricts the source to the other topics.
+Result<void> drop_topics(MessageSource& source, const std::vector<std::string>& drop) {
+  if (drop.empty()) return {};
+  std::vector<std::string> topics;
+  for (const BagConnection& each : source.connections()) topics.push_back(each.topic);
+  for (const std::string& topic : drop) {
+    if (std::ranges::find(topics, topic) != topics.end()) continue;
+    const std::string near = near_match(topic, topics);
+    return failure(fmt::format("{}: no topic '{}' to leave out{}; it has {}", source.name(), topic,
+                               near.empty() ? "" : fmt::format("; did you mean '{}'?", near),
+                               fmt::join(std::set(topics.begin(), topics.end()), ", ")));
+  }
+  std::erase_if(topics, [&](const std::string& topic) {
+    return std::ranges::find(drop, topic) != drop.end();
+  });
+  if (topics.empty()) return failure(source.name() + ": every topic is to be left out");
+  source.select(topics);
+  return {};
+}
+
 }  // namespace
 
 Result<ConvertOutcome> convert(const ConvertOptions& options, const Observer& observer) {
@@ -41,6 +65,9 @@ Result<ConvertOutcome> convert(const ConvertOptions& options, const Observer& ob
   if (is_output(options.from) || std::ranges::any_of(options.with, is_output)) {
     return failure(
         fmt::format("{}: is the recording itself; choose another --out", options.to.string()));
+  }
+  if (auto chosen = drop_topics(**source, options.drop); !chosen) {
+    return tl::unexpected(chosen.error());
   }
   const auto partial = begin_recording(path_of_new(options.to), options.overwrite);
   if (!partial) return tl::unexpected(partial.error());

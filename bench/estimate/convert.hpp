@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "bench/estimate/progress.hpp"
@@ -19,6 +20,7 @@ struct ConvertOptions {
   bool recover = false;        ///< read the intact part of a damaged recording
   BagCompression compression = BagCompression::kNone;
   std::vector<std::filesystem::path> with = {};  ///< further files of the same recording
+  std::vector<std::string> drop = {};            ///< topics that are left out
 };
 
 /// What a conversion has become.
@@ -29,7 +31,8 @@ struct ConvertOutcome {
 };
 
 /// Writes a recording in another format or compression. The new one appears whole or not at all.
-/// Error when it cannot be read, written, or expressed in that format.
+/// Error when it cannot be read, written, or expressed in that format, when it has no topic that is
+/// to be left out, and when no topic is left.
 Result<ConvertOutcome> convert(const ConvertOptions& options, const Observer& observer);
 
 }  // namespace aims

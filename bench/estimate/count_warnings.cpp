@@ -21,6 +21,13 @@ int count_of(const EstimateResult& result, const char* what) {
   return found == result.counts.end() ? 0 : found->second;
 }
 
+/// Adds warnings of one sensor, each by its reason and text.
+auto warner(EstimateResult& result, WarnedSensor sensor) {
+  return [&result, sensor](std::string reason, std::string text) {
+    result.setup.warnings.push_back({std::move(reason), std::move(text), sensor});
+  };
+}
+
 /// Warns of what the counts of the whole recording say of the IMU.
 void warn_of_imu(EstimateResult& result) {
   constexpr double kFew = 0.05;  // of the samples
@@ -60,9 +67,7 @@ void warn_of_legs(EstimateResult& result) {
   constexpr int kFewSeconds = 3;  // of a twist that may be a slip
   const double samples = result.recorded_s * result.setup.leg_rate_hz.value_or(0.0);
   const std::string& topic = result.setup.topics.leg_odometry;
-  const auto warn = [&result](std::string reason, std::string text) {
-    result.setup.warnings.push_back({std::move(reason), std::move(text), WarnedSensor::kLegs});
-  };
+  const auto warn = warner(result, WarnedSensor::kLegs);
   if (const int filled = count_of(result, "legs_twist_by_pose_differences"); filled > 0) {
     warn("twist of the leg odometry is zero",
          fmt::format("{}: the twist is zero in {} messages whose pose moves: differences of the "
@@ -102,9 +107,7 @@ void warn_of_feet(EstimateResult& result) {
   constexpr double kMost = 0.5;       // of the samples; a trot has none without contact
   constexpr double kFewOther = 0.05;  // likewise
   const double samples = result.recorded_s * result.setup.leg_rate_hz.value_or(0.0);
-  const auto warn = [&result](std::string reason, std::string text) {
-    result.setup.warnings.push_back({std::move(reason), std::move(text), WarnedSensor::kLegs});
-  };
+  const auto warn = warner(result, WarnedSensor::kLegs);
   if (const int air = count_of(result, "legs_in_the_air"); air > 0) {
     warn("no foot in contact",
          fmt::format("no foot is in contact for more than half a second, {:.1f} s in all: there is "
@@ -177,9 +180,7 @@ void note_poses(EstimateResult& result) {
 /// Likewise of the clouds.
 void warn_of_clouds(EstimateResult& result) {
   constexpr double kFew = 0.05, kMany = 0.2;  // of the clouds
-  const auto warn = [&result](std::string reason, std::string text) {
-    result.setup.warnings.push_back({std::move(reason), std::move(text), WarnedSensor::kLidar});
-  };
+  const auto warn = warner(result, WarnedSensor::kLidar);
   if (const int untimed = count_of(result, "cloud_mostly_untimed");
       untimed > kFew * result.clouds) {
     warn("most points of some clouds left out by their times",

@@ -25,10 +25,7 @@ Json summary_json(const SeedRuns& seeds) {
   for (const RunRecord& run : runs) summary["seeds"].push_back(run.seed);
   summary["invalid"] = invalid_json(runs);
   summary["estimators"] = Json::object();
-  const auto valid = std::ranges::find_if(runs, [](const RunRecord& run) {
-    return is_valid_run(run) && !run.scores["estimators"].empty();
-  });
-  const RunRecord& example = valid == runs.end() ? runs.front() : *valid;
+  const RunRecord& example = example_run(runs);
   for (const auto& [estimator, unused] : example.scores["estimators"].items()) {
     for (const std::string& key : score_keys(example, estimator)) {
       const ScoreStatistics over_seeds = statistics_of(runs, estimator, key);

@@ -10,6 +10,7 @@
 #include "bench/scenario/model_sheets.hpp"
 #include "bench/scenario/scenario_head.hpp"
 #include "bench/scenario/score_keys.hpp"
+#include "bench/scenario/set_description.hpp"
 #include "core/file_name.hpp"
 #include "core/files/config_dump.hpp"
 #include "core/files/yaml_config.hpp"
@@ -307,26 +308,6 @@ std::string config_text(const Scenario& scenario, bool annotated) {
   const Fields fields = fields_of(copy);
   return annotated ? dump_annotated_config(fields) : dump_config(fields);
 }
-
-namespace {
-
-/// The description, which was written of the file, with what was set on top.
-std::string description_with_settings(const Scenario& scenario) {
-  std::vector<std::string> settings = settings_of(scenario);
-  if (std::ranges::any_of(settings,
-                          [](const auto& each) { return each.starts_with("description="); })) {
-    return scenario.description;
-  }
-  std::erase_if(settings, [](const auto& each) {
-    return each.starts_with("estimators.") || each.starts_with("seed=");
-  });
-  if (settings.empty()) return scenario.description;
-  std::string text = scenario.description;
-  if (!text.empty()) text += text.ends_with('.') ? " " : ". ";
-  return text + fmt::format("With changed settings: {}.", fmt::join(settings, ", "));
-}
-
-}  // namespace
 
 std::string effective_config(const Scenario& scenario, std::uint64_t seed) {
   Scenario effective = scenario_of_seed(scenario, seed);

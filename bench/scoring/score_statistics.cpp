@@ -30,11 +30,25 @@ std::vector<double> values_of(std::span<const RunRecord> runs, const std::string
 
 }  // namespace
 
-std::string part_mark(std::span<const RunRecord> runs, const std::string& estimator) {
-  const bool any =
-      std::ranges::any_of(runs, [&](const RunRecord& run) { return is_partial(run, estimator); });
-  return any ? " part" : "";
+bool any_partial(std::span<const RunRecord> runs, const std::string& estimator) {
+  return std::ranges::any_of(runs,
+                             [&](const RunRecord& run) { return is_partial(run, estimator); });
 }
+
+std::vector<std::string> partial_in(const RunRecord& record) {
+  std::vector<std::string> names = estimators_in({&record, 1});
+  std::erase_if(names, [&](const std::string& name) { return !is_partial(record, name); });
+  return names;
+}
+
+const RunRecord& example_run(std::span<const RunRecord> runs) {
+  const auto found = std::ranges::find_if(runs, [](const RunRecord& run) {
+    return is_valid_run(run) && !value_in(run.scores, "estimators", Json::object()).empty();
+  });
+  return found == runs.end() ? runs.front() : *found;
+}
+
+std::string part_mark(bool partial) { return partial ? " part" : ""; }
 
 std::optional<double> worst_of(const std::vector<double>& values, const std::string& key) {
   if (values.empty()) return std::nullopt;

@@ -26,9 +26,23 @@ struct ScoreStatistics {
 ScoreStatistics statistics_of(std::span<const RunRecord> runs, const std::string& estimator,
                               const std::string& key);
 
-/// " part" where of some run the estimate lacks a part (`is_partial`), so that statistics are of less
-/// than those of others; else nothing.
-std::string part_mark(std::span<const RunRecord> runs, const std::string& estimator);
+/// Whether the estimate lacks a part of some run (`is_partial`), so that statistics are of less
+/// than those of others.
+bool any_partial(std::span<const RunRecord> runs, const std::string& estimator);
+
+/// The estimators of a record of which the estimate lacks a part, or that failed.
+std::vector<std::string> partial_in(const RunRecord& record);
+
+/// Of some runs the first valid one with an estimate, which has all segments and keys of scores;
+/// without one the first.
+const RunRecord& example_run(std::span<const RunRecord> runs);
+
+/// " part", behind a figure of which that holds; else nothing.
+std::string part_mark(bool partial);
+
+/// What that mark means, as a line of a legend.
+inline constexpr const char* kPartLegend =
+    "part: over the parts of the runs that have poses alone.\n";
 
 /// The largest value; the smallest of a score of which more is better.
 std::optional<double> worst_of(const std::vector<double>& values, const std::string& key);
@@ -83,7 +97,8 @@ struct EstimatorRuns {
   std::string estimator;
 };
 
-/// Runs that lack a part of the estimate (`is_partial`) are lost successes and have no other scores.
+/// Runs that lack a part of the estimate (`is_partial`) are lost successes and have no other
+/// scores.
 ScorePairs paired(const EstimatorRuns& reference, const EstimatorRuns& other,
                   const std::string& key);
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "bench/scoring/json_text.hpp"
@@ -94,7 +95,7 @@ ScoreStatistics statistics_in(std::span<const RunRecord> runs, const Row& row,
 
 /// Whether its scores are of all that those of others are: every run, from start to end.
 bool is_comparable(std::span<const RunRecord> runs, const Row& row) {
-  return part_mark(runs, row.estimator).empty();
+  return !any_partial(runs, row.estimator);
 }
 
 bool has_success(std::span<const RunRecord> runs, const Row& row) {
@@ -123,18 +124,43 @@ std::string spread_mark(const RunRecord& run, const Row& row) {
   return value_in(scores, "ate_se3_degenerate", false) ? " line" : "";
 }
 
+/// Marks of a cell, or those that stand anywhere in a table.
+struct Marks {
+  bool best = false;  ///< "*"
+  bool lost = false;  ///< " x": a median over runs without success
+  bool part = false;  ///< " part"
+
+  void add(const Marks& others) {
+    best = best || others.best;
+    lost = lost || others.lost;
+    part = part || others.part;
+  }
+};
+
+/// The marks of a cell that has the median `median`.
+Marks marks_of(std::span<const RunRecord> runs, const Row& row, const Column& column, double median,
+               const std::optional<double>& best) {
+  if (is_timing(column.key)) return {};
+  const bool success = has_success(runs, row);
+  const bool whole = is_comparable(runs, row);
+  return {.best = success && whole && best && median == *best,
+          .lost = runs.size() > 1 && !success,
+          .part = !whole};
+}
+
+/// The text of a cell, whose marks are added to `marks`.
 std::string cell(std::span<const RunRecord> runs, const Row& row, const Column& column,
-                 const std::optional<double>& best) {
+                 const std::optional<double>& best, Marks& marks) {
   const ScoreStatistics summary = statistics_in(runs, row, column.key);
   if (!summary.median) return "-";
-  const bool success = has_success(runs, row);
+  const Marks own = marks_of(runs, row, column, *summary.median, best);
+  marks.add(own);
   std::string text = decimal_text(*summary.median, column.score.digits);
   if (runs.size() > 1)
     text += fmt::format(" ({})", decimal_text(*summary.worst, column.score.digits));
-  if (success && best && *summary.median == *best && is_comparable(runs, row)) text += "*";
-  const bool timing = is_timing(column.key);
-  if (runs.size() > 1 && !success && !timing) text += " x";
-  if (!timing) text += part_mark(runs, row.estimator);
+  if (own.best) text += "*";
+  if (own.lost) text += " x";
+  text += part_mark(own.part);
   if (runs.size() == 1 && column.key == kSe3Key) text += spread_mark(runs.front(), row);
   return text;
 }
@@ -178,18 +204,13 @@ std::string tracked_cell(std::span<const RunRecord> runs, const Row& row) {
   return least ? fmt::format("{:.0f} %", 100.0 * *least) : "-";
 }
 
-}  // namespace
-
-TextTable score_table(std::span<const RunRecord> runs) {
+/// The table, and the marks that stand in it.
+std::pair<TextTable, Marks> marked_table(std::span<const RunRecord> runs) {
   TextTable table;
-  if (runs.empty()) return table;
-  // A route that was not finished may lack segments.
-  const auto valid = std::ranges::find_if(runs, [](const RunRecord& run) {
-    return is_valid_run(run) && !value_in(run.scores, "estimators", Json::object()).empty();
-  });
+  Marks marks;
+  if (runs.empty()) return {table, marks};
   const std::vector<Row> rows = rows_of(runs);
-  std::vector<Column> columns =
-      columns_of(valid == runs.end() ? runs.front() : *valid, runs.size() > 1);
+  std::vector<Column> columns = columns_of(example_run(runs), runs.size() > 1);
   std::erase_if(columns, [&](const Column& column) {
     return column.optional && std::ranges::none_of(rows, [&](const Row& row) {
              return statistics_in(runs, row, column.key).median.has_value();
@@ -202,23 +223,35 @@ TextTable score_table(std::span<const RunRecord> runs) {
   for (const Row& row : rows) {
     table.rows.push_back({row.prefix.empty() ? row.estimator : optimized_label(row.estimator)});
     for (const Column& column : columns) {
-      table.rows.back().push_back(cell(runs, row, column, best_in(runs, rows, column)));
+      table.rows.back().push_back(cell(runs, row, column, best_in(runs, rows, column), marks));
     }
     table.rows.back().push_back(tracked_cell(runs, row));
     for (const Score& score : success_scores()) {
       table.rows.back().push_back(success_cell(runs, row, score));
     }
   }
-  return table;
+  return {table, marks};
 }
 
+}  // namespace
+
+TextTable score_table(std::span<const RunRecord> runs) { return marked_table(runs).first; }
+
 std::string score_legend(std::span<const RunRecord> runs, const ScoreConfig& scoring) {
+  return legend_of_tables({runs}, scoring);
+}
+
+std::string legend_of_tables(const std::vector<std::span<const RunRecord>>& tables,
+                             const ScoreConfig& scoring) {
   const char* start = scoring.truth == TruthContent::kPosition
                           ? "the first position, the rotation by least squares over the path"
                       : scoring.anchor == AlignmentKind::kStartPose
                           ? "the standing start, by position and rotation"
                           : "the first pose, by position and heading";
-  const bool several = runs.size() > 1;
+  Marks marks;
+  for (const auto& runs : tables) marks.add(marked_table(runs).second);
+  const bool several =
+      std::ranges::any_of(tables, [](const auto& runs) { return runs.size() > 1; });
   std::string text = fmt::format(
       "ATE yaw, heading: after least squares over all positions, by translation and heading.\n"
       "ATE start, M_end, max |z|: aligned to the truth at {}.\n"
@@ -236,18 +269,11 @@ std::string score_legend(std::span<const RunRecord> runs, const ScoreConfig& sco
   }
   if (several) {
     text +=
-        "Cells: median over seeds (worst); x: a median over runs of which none succeeded. "
-        "Success:\n"
-        "runs, with the 95 % interval of the rate.\n";
+        "Cells: median over seeds (worst). Success: runs, with the 95 % interval of the rate.\n";
   }
-  if (estimators_in(runs).size() > 1) {
-    text += "A star: best of those with a success whose estimates cover every run.\n";
-  }
-  if (std::ranges::any_of(estimators_in(runs), [&](const std::string& name) {
-        return !is_comparable(runs, {name, ""});
-      })) {
-    text += "part: over the parts of the runs that have poses alone.\n";
-  }
+  if (marks.lost) text += "x: a median over runs of which none succeeded.\n";
+  if (marks.best) text += "A star: best of those with a success whose estimates cover every run.\n";
+  if (marks.part) text += kPartLegend;
   return text;
 }
 

@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "bench/metrics/scores.hpp"
 #include "bench/scoring/score_record.hpp"
@@ -19,7 +20,12 @@ namespace aims {
 /// one there are no scores.
 TextTable score_table(std::span<const RunRecord> runs);
 
-/// How the trajectories were aligned for each column, and what the marks mean.
+/// How the trajectories were aligned for each column, and what the marks mean that stand in the
+/// table.
 std::string score_legend(std::span<const RunRecord> runs, const ScoreConfig& scoring);
+
+/// The same of the tables of several scenarios.
+std::string legend_of_tables(const std::vector<std::span<const RunRecord>>& tables,
+                             const ScoreConfig& scoring);
 
 }  // namespace aims

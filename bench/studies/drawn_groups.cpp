@@ -38,7 +38,7 @@ GroupScores scores_of(std::span<const RunRecord> runs, const std::string& estima
   const SuccessRate rate = success_rate(runs, estimator);
   scores.runs = rate.runs;
   scores.successes = rate.count;
-  scores.part = part_mark(runs, estimator);
+  scores.partial = any_partial(runs, estimator);
   scores.strict = success_rate(runs, estimator, kStrictSuccessKey);
   for (const Score& score : headline_scores()) {
     scores.medians.push_back(statistics_of(runs, estimator, score.key).median);
@@ -157,12 +157,23 @@ TextTable groups_table(const std::vector<DrawnGroup>& groups) {
       for (std::size_t i = 0; i < kHeadlineCount; ++i) {
         row.push_back(
             number_text(each.medians[i], fmt::format("{{:.{}f}}", headline_scores()[i].digits)) +
-            (each.medians[i] ? each.part : ""));
+            part_mark(each.medians[i] && each.partial));
       }
       table.rows.push_back(std::move(row));
     }
   }
   return table;
+}
+
+std::string groups_legend(const std::vector<DrawnGroup>& groups) {
+  const auto is_marked = [](const GroupScores& each) {
+    return each.partial &&
+           std::ranges::any_of(each.medians, [](const auto& median) { return median.has_value(); });
+  };
+  const bool any = std::ranges::any_of(groups, [&](const DrawnGroup& group) {
+    return std::ranges::any_of(group.estimators, is_marked);
+  });
+  return any ? kPartLegend : "";
 }
 
 CsvTable groups_csv(const std::vector<DrawnGroup>& groups) {
@@ -217,12 +228,14 @@ Json groups_json(const std::vector<DrawnGroup>& groups, const std::string& key,
 
 Result<void> write_groups(const std::vector<DrawnGroup>& groups, const std::string& key,
                           const std::string& source, const fs::path& folder) {
-  return write_report(
-      {.name = "groups",
-       .markdown = fmt::format("# {} by {}\n\n{}", source, key, to_markdown(groups_table(groups))),
-       .csv = groups_csv(groups),
-       .json = groups_json(groups, key, source)},
-      folder);
+  std::string legend = groups_legend(groups);
+  if (!legend.empty()) legend.insert(0, "\n");
+  return write_report({.name = "groups",
+                       .markdown = fmt::format("# {} by {}\n\n{}{}", source, key,
+                                               to_markdown(groups_table(groups)), legend),
+                       .csv = groups_csv(groups),
+                       .json = groups_json(groups, key, source)},
+                      folder);
 }
 
 }  // namespace aims

@@ -23,7 +23,7 @@ struct GroupScores {
   std::string estimator;
   std::size_t runs = 0;  ///< valid ones, with those on which it failed
   std::size_t successes = 0;
-  std::string part;  ///< " part" where of some run the estimate lacks a part
+  bool partial = false;                        ///< of some run the estimate lacks a part
   SuccessRate strict;                          ///< within 1 %
   std::vector<std::optional<double>> medians;  ///< in the order of `headline_scores()`
 };
@@ -46,6 +46,10 @@ Result<std::vector<DrawnGroup>> group_by_drawn(const StoredResults& results, con
 
 /// A row per group and estimator.
 TextTable groups_table(const std::vector<DrawnGroup>& groups);
+
+/// What the marks mean that stand in that table; empty without one.
+std::string groups_legend(const std::vector<DrawnGroup>& groups);
+
 CsvTable groups_csv(const std::vector<DrawnGroup>& groups);
 
 /// What groups.json holds (schema aims.groups/1).

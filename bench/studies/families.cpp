@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/studies/families.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 
+#include "bench/metrics/paired_test.hpp"
 #include "bench/metrics/statistics.hpp"
 #include "bench/scoring/json_text.hpp"
 #include "bench/scoring/score_statistics.hpp"
@@ -15,6 +18,7 @@
 namespace aims {
 namespace {
 
+constexpr const char* kAte = "ate_yaw_m";
 constexpr double kMinSuccessRate = 0.5;
 constexpr double kMaxGrowth = 2.0;  ///< of the ATE from the mildest level
 
@@ -37,12 +41,13 @@ FamilyPoint point_of(const SuiteCase& each, const std::string& estimator) {
   point.distance_m = route_length(each.scenario);
   const auto own = labels_of(each.scenario.run);
   if (std::find(own.begin(), own.end(), estimator) == own.end()) return point;
-  point.ate_m = statistics_of(each.runs, estimator, "ate_yaw_m").median;
-  point.ate_interval = median_interval(each.runs, estimator, "ate_yaw_m");
+  point.ate_m = statistics_of(each.runs, estimator, kAte).median;
+  point.ate_interval = median_interval(each.runs, estimator, kAte);
   point.m_list = statistics_of(each.runs, estimator, "m_list_percent.all").median;
   point.m_list_interval = median_interval(each.runs, estimator, "m_list_percent.all");
   const SuccessRate rate = success_rate(each.runs, estimator);
   point.runs = rate.runs;
+  point.partial = any_partial(each.runs, estimator);
   if (point.runs == 0) return point;
   point.success_rate = static_cast<double>(rate.count) / static_cast<double>(rate.runs);
   point.success_interval = rate.interval();
@@ -80,6 +85,49 @@ std::size_t mildest_of(const std::vector<FamilyCurve>& curves, std::size_t level
     }
   }
   return mildest;
+}
+
+/// What changes per seed from one level to another, over all estimators that have both.
+struct LevelChanges {
+  std::vector<double> successes;  ///< less of them
+  std::vector<double> log_ate;    ///< mean growth
+};
+
+LevelChanges changes_between(const SuiteCase& from, const SuiteCase& to,
+                             const std::vector<std::string>& estimators) {
+  LevelChanges changes;
+  for (const RunRecord& a : from.runs) {
+    const auto b = std::ranges::find(to.runs, a.seed, &RunRecord::seed);
+    if (b == to.runs.end() || !is_valid_run(a) || !is_valid_run(*b)) continue;
+    double lost = 0.0;
+    std::vector<double> growths;
+    for (const std::string& name : estimators) {
+      const auto before = succeeds(a, name);
+      const auto after = succeeds(*b, name);
+      if (before && after) lost += double(*before) - double(*after);
+      const ScorePairs ate = paired({{&a, 1}, name}, {{&*b, 1}, name}, kAte);
+      if (ate.value.empty() || !(ate.value[0] > 0.0) || !(ate.reference[0] > 0.0)) continue;
+      growths.push_back(std::log(ate.value[0] / ate.reference[0]));
+    }
+    changes.successes.push_back(lost);
+    if (!growths.empty()) changes.log_ate.push_back(*mean(growths));
+  }
+  return changes;
+}
+
+/// Levels that the seeds do not tell apart from the mildest; see `family_results`.
+std::optional<std::vector<double>> alike_with(const SuiteCase& mildest, const Members& members,
+                                              const std::vector<std::string>& estimators) {
+  std::vector<double> alike;
+  for (const SuiteCase* each : members) {
+    if (each == &mildest) continue;
+    const LevelChanges changes = changes_between(mildest, *each, estimators);
+    if (changes.successes.size() < kFewestPairs) return std::nullopt;
+    const bool differs =
+        paired_test(changes.successes).found() || paired_test(changes.log_ate).found();
+    if (!differs) alike.push_back(each->scenario.level);
+  }
+  return alike;
 }
 
 bool broken(const FamilyPoint& point, const FamilyPoint& mildest) {
@@ -121,6 +169,7 @@ FamilyResult family_of(const std::string& name, const Members& members,
   }
   const std::size_t mildest = mildest_of(family.curves, members.size());
   family.mildest = members[mildest]->scenario.level;
+  family.alike = alike_with(*members[mildest], members, estimators);
   for (FamilyCurve& curve : family.curves) curve.breaks_at = breaks_of(curve.points, mildest);
   return family;
 }
@@ -137,7 +186,8 @@ Json point_json(const FamilyPoint& point) {
           {"success_low", json_of(point.success_interval.low)},
           {"success_high", json_of(point.success_interval.high)},
           {"runs", point.runs},
-          {"invalid", point.invalid}};
+          {"invalid", point.invalid},
+          {"partial", point.partial}};
 }
 
 }  // namespace
@@ -160,6 +210,12 @@ std::vector<FamilyResult> family_results(const Suite& suite) {
   return families;
 }
 
+std::string alike_text(const FamilyResult& family) {
+  if (!family.alike) return fmt::format("fewer than {} seeds", kFewestPairs);
+  if (family.alike->empty()) return "-";
+  return fmt::format("{:g}", fmt::join(*family.alike, ", "));
+}
+
 Json families_json(const std::vector<FamilyResult>& families) {
   Json json = Json::array();
   for (const FamilyResult& family : families) {
@@ -174,6 +230,7 @@ Json families_json(const std::vector<FamilyResult>& families) {
     json.push_back({{"name", family.name},
                     {"level_unit", family.level_unit},
                     {"mildest_level", family.mildest},
+                    {"alike_levels", family.alike ? Json(*family.alike) : Json()},
                     {"median_equivalent_returns", std::move(returns)},
                     {"estimators", std::move(curves)}});
   }

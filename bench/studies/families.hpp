@@ -26,6 +26,7 @@ struct FamilyPoint {
   Interval success_interval;     ///< 95 %
   std::size_t runs = 0;          ///< valid ones
   std::size_t invalid = 0;       ///< left out
+  bool partial = false;          ///< of some run the estimate lacks a part
 };
 
 /// One estimator over the levels of a family.
@@ -39,6 +40,9 @@ struct FamilyResult {
   std::string name;
   std::string level_unit;
   double mildest = 0.0;  ///< level from which the others are judged
+  /// Levels that the seeds do not tell apart from it, so that one of them may be as mild; none when
+  /// these are too few to tell.
+  std::optional<std::vector<double>> alike;
   /// Median over seeds of the scans' median equivalent returns along the weak axis, per level.
   std::vector<std::optional<double>> equivalent_returns;
   std::vector<FamilyCurve> curves;
@@ -47,11 +51,16 @@ struct FamilyResult {
 /// The families of the suite that have finished runs at two levels or more.
 ///
 /// The mildest level is the one with the most successes over all estimators, and among equals that
-/// with the smallest median ATE (geometric mean over estimators). An estimator breaks at the first
+/// with the smallest median ATE (geometric mean over estimators). A level differs from it when the
+/// sign-flip test over seeds finds a change of the successes of all estimators, or of the mean
+/// logarithm of their ATE. An estimator breaks at the first
 /// level, going away from the mildest on either side, where it succeeds in less than half of the
 /// runs, or where its median ATE exceeds both twice that at the mildest level and `kMinBreakError`
 /// of the distance: twice a few centimetres is no break.
 std::vector<FamilyResult> family_results(const Suite& suite);
+
+/// "2, 3", "-" for none, or that the seeds are too few.
+std::string alike_text(const FamilyResult& family);
 
 /// The families as suite.json holds them.
 Json families_json(const std::vector<FamilyResult>& families);

@@ -10,6 +10,7 @@
 
 #include "bench/metrics/statistics.hpp"
 #include "bench/scoring/score_statistics.hpp"
+#include "estimator/python/python_estimator.hpp"
 
 namespace aims {
 namespace {
@@ -32,6 +33,11 @@ std::string scaled_text(const Parameter& parameter, double factor) {
 bool holds_numbers(const Parameter& parameter) {
   return is_number(parameter) || parameter.kind == ParameterKind::kVector ||
          parameter.kind == ParameterKind::kNumbers;
+}
+
+/// Whether it has numbers that can have an effect on the estimate.
+bool is_varied(const Parameter& parameter) {
+  return parameter.idle.empty() && !is_operational(parameter.key) && holds_numbers(parameter);
 }
 
 std::string variant_label(const std::string& key, double factor) {
@@ -108,7 +114,7 @@ Result<std::vector<SettingVariant>> setting_variants(const std::string& text,
   const Fields fields = fields_of(**config);
   std::vector<SettingVariant> variants;
   for (const Parameter& parameter : fields.parameters()) {
-    if (!parameter.idle.empty() || !holds_numbers(parameter)) continue;
+    if (!is_varied(parameter)) continue;
     for (const double factor : factors) {
       EstimatorSpec changed = *spec;
       changed.label = variant_label(parameter.key, factor);

@@ -40,7 +40,17 @@ std::string headline_cell(const SuiteCase& each, const std::string& estimator, c
   if (const std::size_t runs = finished(each.runs, estimator); summary.count < runs) {
     text += fmt::format(" ({} of {})", summary.count, runs);
   }
-  return text + part_mark(each.runs, estimator);
+  return text + part_mark(any_partial(each.runs, estimator));
+}
+
+/// Whether a table of scores has the mark " part".
+bool has_part(const Suite& suite) {
+  const std::vector<std::string> estimators = estimators_of(suite);
+  return std::ranges::any_of(suite.cases, [&](const SuiteCase& each) {
+    return std::ranges::any_of(estimators, [&](const std::string& estimator) {
+      return ran(each, estimator) && any_partial(each.runs, estimator);
+    });
+  });
 }
 
 template <class Cell>
@@ -147,12 +157,12 @@ TextTable success_pairs_table(const Suite& suite, bool all) {
 
 TextTable breaks_table(const std::vector<FamilyResult>& families) {
   TextTable table;
-  table.header = {"family", "unit", "mildest"};
+  table.header = {"family", "unit", "mildest", "not told apart"};
   if (families.empty()) return table;
   for (const FamilyCurve& curve : families.front().curves) table.header.push_back(curve.estimator);
   for (const FamilyResult& family : families) {
     std::vector<std::string> row = {family.name, family.level_unit,
-                                    fmt::format("{:g}", family.mildest)};
+                                    fmt::format("{:g}", family.mildest), alike_text(family)};
     for (const FamilyCurve& curve : family.curves) {
       row.push_back(
           curve.breaks_at.empty() ? "-" : fmt::format("{:g}", fmt::join(curve.breaks_at, ", ")));
@@ -169,6 +179,7 @@ std::string suite_markdown(const Suite& suite, const std::vector<FamilyResult>& 
   text +=
       "Each cell: median [95 % bootstrap interval of the median] worst, over seeds. Below about\n"
       "ten seeds the intervals are coarse and too narrow; with one seed there are none.\n";
+  if (has_part(suite)) text += kPartLegend;
   for (const Score& score : headline_scores()) {
     text += fmt::format("\n## {} [{}]\n\n{}", score.title, score.unit,
                         to_markdown(headline_table(suite, score)));
@@ -179,7 +190,8 @@ std::string suite_markdown(const Suite& suite, const std::vector<FamilyResult>& 
         "\n## Breakdown level\n\nThe first level, going away from the mildest, where less than "
         "half of "
         "the runs succeed or the median ATE yaw exceeds both twice that at the mildest and {:g} % "
-        "of the route's length.\n\n{}",
+        "of the route's length.\nNot told apart: levels that do not differ from the mildest by the "
+        "sign-flip test over seeds; one of them may be as mild.\n\n{}",
         100.0 * kMinBreakError, to_markdown(breaks_table(families)));
   }
   text += "\n## Expectations\n\n" + expectations_markdown(suite);

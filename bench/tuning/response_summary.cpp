@@ -204,19 +204,20 @@ TextTable gain_table(const ResponseTable& table, const Objective& objective, std
                  "tuned",        "objective, defaults",
                  "tuned [95 %]", "diverged, defaults",
                  "tuned"};
+  const std::vector<std::size_t> all = cases_of(table, "");
   std::vector<std::string> names;
-  for (const std::size_t i : cases_of(table, "")) {
+  for (const std::size_t i : all) {
     const std::string& name = table.cases[i].scenario;
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   for (const std::string& name : names) {
     std::vector<std::size_t> cases;
-    for (const std::size_t i : cases_of(table, "")) {
+    for (const std::size_t i : all) {
       if (table.cases[i].scenario == name) cases.push_back(i);
     }
     text.rows.push_back(gain_row(table, objective, point, name, cases));
   }
-  text.rows.push_back(gain_row(table, objective, point, "all", cases_of(table, "")));
+  text.rows.push_back(gain_row(table, objective, point, "all", all));
   return text;
 }
 

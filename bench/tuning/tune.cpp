@@ -123,10 +123,10 @@ class Tuning {
       return;
     }
     Points values(tables[0].points.size());
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      for (std::size_t i = 0; i < tables.size(); ++i) {
-        values[k].push_back(objective_at(tables[i], objectives[i], k, cases_of(tables[i], ""))
-                                .value_or(kNoObjective));
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+      const auto all = cases_of(tables[i], "");
+      for (std::size_t k = 0; k < values.size(); ++k) {
+        values[k].push_back(objective_at(tables[i], objectives[i], k, all).value_or(kNoObjective));
       }
     }
     result_.chosen = pareto_front(values);

@@ -11,12 +11,19 @@
 #include "bench/tuning/response_summary.hpp"
 #include "bench/tuning/tune_plan.hpp"
 #include "bench/tuning/values_text.hpp"
+#include "core/counted.hpp"
 #include "core/files/atomic_file.hpp"
 
 namespace aims {
 namespace {
 
 constexpr const char* kLooks = "held_out.txt";
+
+/// "none of the 4 other points is better"; of one, "the one other point is not better".
+std::string none_better(std::size_t count, std::string_view kind, std::string_view of = "") {
+  if (count == 1) return fmt::format("the one {}point{} is not better", kind, of);
+  return fmt::format("none of the {} {}points{} is better", count, kind, of);
+}
 
 }  // namespace
 
@@ -54,15 +61,13 @@ std::string held_out_verdict(const TuneResult& result) {
   }
   if (keeps_defaults(result) && result.tables.size() > 1) {
     return fmt::format(
-        "keep the defaults: the Pareto front has no other point: none of the {} others is better "
-        "in an objective on the sequences tuned on",
-        other_points(result.tables.front()));
+        "keep the defaults: the Pareto front has no other point: {} in an objective on the "
+        "sequences tuned on",
+        none_better(other_points(result.tables.front()), "other "));
   }
   if (keeps_defaults(result)) {
-    return fmt::format(
-        "keep the defaults: none of the {} other points is better on the sequences "
-        "tuned on",
-        other_points(result.tables.front()));
+    return fmt::format("keep the defaults: {} on the sequences tuned on",
+                       none_better(other_points(result.tables.front()), "other "));
   }
   if (result.held_out.empty() && !result.task.held_out.empty()) {
     return "not validated: interrupted before the held-out sequences were run";
@@ -91,11 +96,16 @@ std::string front_verdict(const TuneResult& result) {
   const auto points = static_cast<std::size_t>(
       std::ranges::count_if(result.chosen, [](std::size_t point) { return point != 0; }));
   const std::string on =
-      fmt::format("on {} held-out sequences", result.held_out.front().cases.size());
+      fmt::format("on {}", counted(result.held_out.front().cases.size(), "held-out sequence"));
   if (better == 0) {
+    return fmt::format("do not use {}: {} than the defaults {}", points == 1 ? "it" : "them",
+                       none_better(points, "", " of the front"), on);
+  }
+  if (points == 1) {
     return fmt::format(
-        "do not use them: none of the {} points of the front is better than the defaults {}",
-        points, on);
+        "use it: the one point of the front is significantly better in one objective and in none "
+        "worse than the defaults {}",
+        on);
   }
   return fmt::format(
       "use one of those marked better: {} of the {} points of the front, significantly in one "
@@ -105,9 +115,9 @@ std::string front_verdict(const TuneResult& result) {
 
 std::string looks_text(std::size_t earlier) {
   return fmt::format(
-      "held-out results were looked at {} time{} before; sequences that are added after a look "
+      "held-out results were looked at {} before; sequences that are added after a look "
       "make p too small. Confirm the values on sequences that were never looked at",
-      earlier, earlier == 1 ? "" : "s");
+      counted(earlier, "time"));
 }
 
 std::vector<std::string> looks_in(const std::filesystem::path& folder) {

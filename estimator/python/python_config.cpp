@@ -69,6 +69,10 @@ Result<PythonSetting> setting_in(MessageCursor& cursor) {
 
 }  // namespace
 
+bool is_operational(std::string_view key) {
+  return key == kCallTimeoutKey || key == kPythonCodeHash;
+}
+
 Result<std::vector<std::byte>> import_class(PythonProcess& process, std::string_view name,
                                             double limit_s) {
   if (auto started = process.start(); !started) return tl::unexpected(started.error());
@@ -118,7 +122,7 @@ Result<PythonConfig> PythonConfig::load(std::string_view name, double limit_s) {
   }
   if (cursor.is_short()) return failure(fmt::format("{}: answered with too few bytes", name));
   for (const PythonSetting& each : config.settings_) {
-    if (each.key != kCallTimeoutKey && each.key != kPythonCodeHash) continue;
+    if (!is_operational(each.key)) continue;
     return failure(
         fmt::format("{}: the keyword '{}' of the constructor is the name of another "
                     "parameter; expected another name",

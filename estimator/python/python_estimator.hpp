@@ -35,6 +35,10 @@ struct PythonSetting {
 
 /// Key of the parameter that stands for the code of a class.
 inline constexpr std::string_view kPythonCodeHash = "code_hash";
+/// Whether a parameter of a class in Python is about how it is run, not about its estimate: the
+/// limit of its calls, the hash of its code. Studies of settings leave it out.
+bool is_operational(std::string_view key);
+
 /// Wall time that one call of the class is given, unless it is set [s].
 inline constexpr double kCallTimeout = 120.0;
 

@@ -63,15 +63,16 @@ void check_leg_kilo(SystemCheck check) {
 }
 
 void check_own(SystemCheck check, bool with_legs) {
-  check.readable();
-  if (check.clouds()) {
+  check.readable(with_legs);
+  const bool clouds = with_legs ? check.clouds_or_legs() : check.clouds();
+  if (clouds) {
     check.point_times(Fulfilment::kPoor,
                       "times are derived from azimuths: deskewing is approximate");
   }
   check.imu(20.0, 50.0);
   if (with_legs) check.legs();
   check.static_start();
-  check.extrinsics("set recording.T_imu_lidar");
+  if (clouds) check.extrinsics("set recording.T_imu_lidar");
 }
 
 /// The worst outcome of a system's requirements.

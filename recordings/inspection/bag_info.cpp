@@ -156,6 +156,16 @@ const TopicInfo* BagInfo::find(const std::string& topic) const {
   return found == topics.end() ? nullptr : &*found;
 }
 
+namespace {
+
+bool opens_without_lidar(const std::filesystem::path& bag, RecordingConfig config,
+                         const BagOpenOptions& options) {
+  config.topics.lidar = "none";
+  return RecordingReader::open(bag, config, options).has_value();
+}
+
+}  // namespace
+
 Result<BagInfo> bag_info(const std::filesystem::path& bag, const RecordingConfig& config,
                          BagOpenOptions options) {
   auto opened = open_sensor_recording(bag, options, true);
@@ -182,6 +192,7 @@ Result<BagInfo> bag_info(const std::filesystem::path& bag, const RecordingConfig
     }
   } else {
     info.refusal = recording.error().message;
+    info.opens_without_lidar = info.clouds.empty() && opens_without_lidar(bag, config, options);
     info.used = unambiguous_topics(info.file, reader->connections(), config.topics);
   }
   for (const std::string& type : info.undefined) {

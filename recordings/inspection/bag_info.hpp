@@ -108,6 +108,7 @@ struct BagInfo {
   std::uint64_t undecodable = 0;       ///< messages that contradict their definition
   std::string first_undecodable;       ///< error of the first
   TopicsConfig used;                   ///< topics used by `aims estimate`; empty: none
+  bool opens_without_lidar = false;    ///< refused, but not with recording.topics.lidar=none
   bool extrinsics_configured = false;  ///< T_imu_lidar of the configuration is used
   std::vector<std::string> notes;      ///< of `aims estimate`: assumptions and conversions
   std::optional<std::string> refusal;  ///< error of `aims estimate`, if it cannot read the bag

@@ -42,6 +42,19 @@ bool SystemCheck::clouds() {
   return false;
 }
 
+bool SystemCheck::clouds_or_legs() {
+  const bool unused = !bag_.bag->refusal && bag_.bag->used.lidar.empty();
+  if (!bag_.imu || !has_legs()) return clouds();
+  if (unused) {
+    met("3-D LiDAR clouds", "not used (topics.lidar: none)");
+    return false;
+  }
+  if (!bag_.bag->opens_without_lidar) return clouds();
+  add(Fulfilment::kPoor, "3-D LiDAR clouds", "none",
+      "--set recording.topics.lidar=none estimates from IMU and legs alone, which drift");
+  return false;
+}
+
 void SystemCheck::point_times(Fulfilment without, const std::string& remedy) {
   if (!bag_.cloud) return;
   if (const auto* field = bag_.cloud->time_field()) {
@@ -139,18 +152,26 @@ void SystemCheck::unitree_state() {
       "record or convert to that message, which it reads alone");
 }
 
+bool SystemCheck::has_legs() const {
+  const TopicsConfig& used = bag_.bag->used;
+  return !used.leg_odometry.empty() || (!used.joint_states.empty() && !used.contacts.empty());
+}
+
 void SystemCheck::legs() {
   const TopicsConfig& used = bag_.bag->used;
-  if (!used.leg_odometry.empty()) return met("leg odometry", used.leg_odometry);
-  if (!used.joint_states.empty() && !used.contacts.empty()) {
-    return met("leg odometry", "from joints and contacts");
+  if (has_legs()) {
+    return met("leg odometry",
+               used.leg_odometry.empty() ? "from joints and contacts" : used.leg_odometry);
   }
   add(Fulfilment::kMissing, "leg odometry", "none",
       "name its topic (--topics leg_odometry=/...), or use the estimator lio");
 }
 
-void SystemCheck::readable() {
+void SystemCheck::readable(bool without_lidar) {
   if (!bag_.bag->refusal) return met("readable by aims", "yes");
+  if (without_lidar && bag_.bag->opens_without_lidar) {
+    return met("readable by aims", "with recording.topics.lidar=none");
+  }
   add(Fulfilment::kMissing, "readable by aims", "", *bag_.bag->refusal);
 }
 

@@ -28,8 +28,11 @@ class SystemCheck {
   SystemCheck(std::string system, const Inventory& bag, std::vector<RequirementCheck>& out)
       : system_(std::move(system)), bag_(bag), out_(out) {}
 
-  /// False when there are no clouds.
+  /// False when there are no clouds: missing.
   bool clouds();
+  /// The same of a system that also runs on an IMU and legs alone: poor, or met when the
+  /// configuration asks for no LiDAR.
+  bool clouds_or_legs();
   void point_times(Fulfilment without, const std::string& remedy);
   void rings(Fulfilment without, const std::string& remedy);
   /// A field of exactly that name and type, for readers that map structs.
@@ -44,10 +47,12 @@ class SystemCheck {
   /// Joint angles and foot forces as Unitree's robots publish them.
   void unitree_state();
   void legs();
-  void readable();
+  /// `without_lidar`: the system also runs without one.
+  void readable(bool without_lidar);
 
  private:
   void imu_coverage();
+  bool has_legs() const;
   bool has_type(const std::string& type) const;
   void met(const std::string& requirement, const std::string& found);
   void add(Fulfilment fulfilment, const std::string& requirement, const std::string& found,

@@ -14,7 +14,6 @@
 #include "render/page/seeds_page.hpp"
 #include "render/page/suite_page.hpp"
 #include "render/page/tuning_page.hpp"
-#include "render/page/tuning_source.hpp"
 
 namespace aims {
 namespace {
@@ -57,6 +56,14 @@ Result<PageData> page_of(const fs::path& folder, const PageOptions& options) {
                   folder.string()));
 }
 
+Result<void> write_html(const PageData& page, const fs::path& file) {
+  const auto html = page_html(page);
+  if (!html) return tl::unexpected(html.error());
+  auto written = write_file_atomically(file, *html);
+  if (written && file.filename() == kPageFile) add_to_manifest(file);
+  return written;
+}
+
 }  // namespace
 
 Result<void> write_page(const fs::path& folder, const fs::path& file, PageOptions options) {
@@ -65,11 +72,7 @@ Result<void> write_page(const fs::path& folder, const fs::path& file, PageOption
   }
   const auto page = page_of(folder, options);
   if (!page) return tl::unexpected(page.error());
-  const auto html = page_html(*page);
-  if (!html) return tl::unexpected(html.error());
-  auto written = write_file_atomically(file, *html);
-  if (written && file.filename() == kPageFile) add_to_manifest(file);
-  return written;
+  return write_html(*page, file);
 }
 
 Result<WrittenPages> write_pages(const fs::path& folder, const PageOptions& options,
@@ -94,6 +97,15 @@ Result<WrittenPages> write_pages(const fs::path& folder, const PageOptions& opti
   if (!written) return tl::unexpected(written.error());
   written_pages.pages.push_back(folder / kPageFile);
   return written_pages;
+}
+
+Result<WrittenPages> write_merged_page(const TuningSource& source, const fs::path& folder) {
+  const auto page = tuning_page(source, folder);
+  if (!page) return tl::unexpected(page.error());
+  if (auto written = write_html(*page, folder / kPageFile); !written) {
+    return tl::unexpected(written.error());
+  }
+  return WrittenPages{.pages = {folder / kPageFile}, .warnings = {}};
 }
 
 }  // namespace aims

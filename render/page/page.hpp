@@ -8,6 +8,7 @@
 #include "bench/run/draw_observer.hpp"
 #include "core/error.hpp"
 #include "render/page/page_data.hpp"
+#include "render/page/tuning_source.hpp"
 
 namespace aims {
 
@@ -33,5 +34,9 @@ Result<void> write_page(const std::filesystem::path& folder, const std::filesyst
 Result<WrittenPages> write_pages(const std::filesystem::path& folder,
                                  const PageOptions& options = {},
                                  const DrawObserver& observer = {});
+
+/// Writes the page of a sweep that was merged, as `kPageFile` into `folder`.
+Result<WrittenPages> write_merged_page(const TuningSource& source,
+                                       const std::filesystem::path& folder);
 
 }  // namespace aims

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/scoring/json_text.hpp"
+#include "bench/scoring/score_statistics.hpp"
 #include "bench/scoring/start_anchor.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/series_style.hpp"
@@ -109,6 +110,11 @@ Json failures_json(const RunFolder& run) {
     list.push_back({{"estimator", name}, {"message", message}});
   }
   return list;
+}
+
+/// The estimators whose scores are of a part of the run.
+Json partial_json(const RunFolder& run) {
+  return run.scores.is_object() ? Json(partial_in({0, run.scores})) : Json::array();
 }
 
 Json changes_json(const RunFolder& run) {
@@ -220,6 +226,7 @@ Result<PageData> run_page(const fs::path& folder) {
       {"config_yaml", run->config_yaml.empty() ? Json() : Json(run->config_yaml)},
       {"config_changes", changes_json(*run)},
       {"scores", run->scores},
+      {"partial", partial_json(*run)},
       {"waypoint_times", waypoint_times_json(*run, start)},
       {"truth", truth_json(*run, start, page)}};
   auto localizability = localizability_json(*run, start, page);

@@ -9,6 +9,7 @@
 
 #include "bench/jobs/stored_results.hpp"
 #include "bench/run/expectations.hpp"
+#include "bench/scenario/set_description.hpp"
 #include "bench/scoring/json_text.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "core/files/atomic_file.hpp"
@@ -114,7 +115,8 @@ Result<PageData> seeds_page(const fs::path& folder, const PageOptions& options) 
   page.title = fmt::format("{}, seeds {}", only.scenario.name, seeds_text(only.runs));
   const std::string version = text_in(only.runs.front().scores, "version");
   const bool corridor = only.scenario.simulation.scene.kind == SceneKind::kCorridor;
-  const std::string description = only.scenario.description;
+  // What was set stands in a line of its own.
+  const std::string description = description_without_settings(only.scenario.description);
   Suite suite;
   suite.cases.push_back(std::move(only));
   Json summary = suite_json(suite);

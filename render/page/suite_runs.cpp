@@ -58,8 +58,10 @@ Json suite_run_json(const std::string& scenario, std::uint64_t seed, const RunRe
               {"seed", seed},
               {"href", run_link(run_folder, page_folder)},
               {"invalid", Json()},
+              {"partial", Json::array()},
               {"estimators", Json::object()}};
   if (record == nullptr) return run;
+  run["partial"] = partial_in(*record);
   if (const auto reason = invalid_reason(record->scores)) run["invalid"] = *reason;
   for (const auto& [estimator, unused] : record->scores["estimators"].items()) {
     run["estimators"][estimator] = outcome_of(*record, estimator);

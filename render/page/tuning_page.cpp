@@ -312,34 +312,37 @@ Result<PageData> tuning_page(const fs::path& folder, const PageOptions& /*option
   if (auto ok = check_links(folder); !ok) return tl::unexpected(ok.error());
   const auto source = read_tuning(folder);
   if (!source) return tl::unexpected(source.error());
-  const auto varied = varied_in(source->units);
+  return tuning_page(*source, folder);
+}
+
+Result<PageData> tuning_page(const TuningSource& source, const fs::path& folder) {
+  const auto varied = varied_in(source.units);
   if (!varied) return failure(folder.string() + ": " + varied.error().message);
   Collected all;
-  collect(source->units, *varied, false, all);
-  collect(source->held_out, *varied, true, all);
-  for (auto& each : all.estimators) number_points(*source, *varied, each);
-  const auto scores = scores_of(*source, all);
+  collect(source.units, *varied, false, all);
+  collect(source.held_out, *varied, true, all);
+  for (auto& each : all.estimators) number_points(source, *varied, each);
+  const auto scores = scores_of(source, all);
   PageData page;
-  page.title = title_of(*source, *varied);
-  auto estimators = estimators_json(*source, *varied, all, scores, page);
+  page.title = title_of(source, *varied);
+  auto estimators = estimators_json(source, *varied, all, scores, page);
   if (!estimators) return tl::unexpected(estimators.error());
-  const Json tune = tune_in(*source, folder);
-  page.json = {
-      {"schema", kPageSchema},
-      {"kind", "tuning"},
-      {"title", page.title},
-      {"palette", palette_json()},
-      {"source", source->tuned ? "tune" : "sweep"},
-      {"plan", source->plan},
-      {"jobs", counts_json(source->units)},
-      {"looked", looked_json(folder)},
-      {"front", source->objectives.size() > 1 ? value_in(tune, "verdict", Json()) : Json()},
-      {"interrupted", !value_in(tune, "complete", true)},
-      {"held_out_jobs", counts_json(source->held_out)},
-      {"scores", scores},
-      {"sequences", sequences_json(all.sequences)},
-      {"estimators", std::move(*estimators)},
-      {"notes", source->notes}};
+  const Json tune = tune_in(source, folder);
+  page.json = {{"schema", kPageSchema},
+               {"kind", "tuning"},
+               {"title", page.title},
+               {"palette", palette_json()},
+               {"source", source.tuned ? "tune" : "sweep"},
+               {"plan", source.plan},
+               {"jobs", counts_json(source.units)},
+               {"looked", looked_json(folder)},
+               {"front", source.objectives.size() > 1 ? value_in(tune, "verdict", Json()) : Json()},
+               {"interrupted", !value_in(tune, "complete", true)},
+               {"held_out_jobs", counts_json(source.held_out)},
+               {"scores", scores},
+               {"sequences", sequences_json(all.sequences)},
+               {"estimators", std::move(*estimators)},
+               {"notes", source.notes}};
   return page;
 }
 

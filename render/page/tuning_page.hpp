@@ -14,4 +14,7 @@ namespace aims {
 /// of which parameter matters, and of the curves and maps. Error when the folder is of neither.
 Result<PageData> tuning_page(const std::filesystem::path& folder, const PageOptions& options);
 
+/// The same of a source that was read; `folder`: where a tuning wrote what it came to.
+Result<PageData> tuning_page(const TuningSource& source, const std::filesystem::path& folder);
+
 }  // namespace aims

@@ -145,18 +145,22 @@ Result<TuningSource> read_tune(const fs::path& folder) {
 }
 
 Result<TuningSource> read_sweep(const fs::path& folder) {
-  TuningSource source;
   auto units = merge_sweeps(std::array{folder});
   if (!units) return tl::unexpected(units.error());
-  source.units = std::move(*units);
-  source.plan = source.units.plans.front();
   auto objective = objective_in(folder);
   if (!objective) return tl::unexpected(objective.error());
-  source.objectives = {std::move(*objective)};
-  return source;
+  return merged_source(std::move(*units), std::move(*objective));
 }
 
 }  // namespace
+
+TuningSource merged_source(MergedSweep units, Objective objective) {
+  TuningSource source;
+  source.units = std::move(units);
+  source.plan = fmt::format("{}", fmt::join(source.units.plans, "\n"));
+  source.objectives = {std::move(objective)};
+  return source;
+}
 
 bool holds_tuning(const fs::path& folder) {
   std::error_code ignored;

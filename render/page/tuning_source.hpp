@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/tuning/sweep_store.hpp"
 #include "bench/tuning/objective.hpp"
+#include "bench/tuning/sweep_store.hpp"
 #include "core/error.hpp"
 
 namespace aims {
@@ -30,6 +30,9 @@ struct TuningSource {
   std::map<std::vector<double>, TunedPoint> points;  ///< of a finished tuning, by their values
   std::vector<std::string> notes;                    ///< what could not be used
 };
+
+/// The jobs of folders of `aims sweep`, merged, with the objective of the merge.
+TuningSource merged_source(MergedSweep units, Objective objective);
 
 /// Whether the folder is that of a sweep (plan.yaml, jobs.csv) or of a tuning (tune.yaml).
 bool holds_tuning(const std::filesystem::path& folder);

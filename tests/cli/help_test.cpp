@@ -50,7 +50,7 @@ const std::map<std::string, std::vector<std::string>> kCommands = {
     {"score", {"--set", "--out", "--overwrite", "--waypoint-times", "--json", "--no-page"}},
     {"info", {"--set", "--config", "--recover", "--json"}},
     {"check", {"--set", "--config", "--recover", "--system", "--json"}},
-    {"convert", {"--out", "--overwrite", "--recover", "--quiet"}},
+    {"convert", {"--out", "--drop", "--overwrite", "--recover", "--quiet"}},
     {"render", {"--seeds", "--estimators", "--set", "--out", "--overwrite", "--jobs", "--quiet"}},
     {"page", {"--out", "--quiet"}},
     {"config", {"--folder", "--set", "--json"}},

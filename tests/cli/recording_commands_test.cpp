@@ -93,6 +93,31 @@ TEST_F(Recordings, EveryFormatGivesTheSameTrajectories) {
   }
 }
 
+TEST_F(Recordings, TopicsAreDroppedAndWhatIsLeftIsCheckedAndEstimated) {
+  ASSERT_EQ(simulate().exit_code, 0);
+  expect_refused("convert walk.bag --drop /lidar/point --out legs.bag",
+                 {"no topic '/lidar/point' to leave out", "did you mean '/lidar/points'?"});
+  const Outcome made = aims("convert walk.bag --drop /lidar/points,/foot_contacts --out legs.bag");
+  ASSERT_EQ(made.exit_code, 0) << made.output;
+  const Outcome whole = aims("info walk.bag");
+  const Outcome left = aims("info legs.bag");
+  EXPECT_TRUE(holds(whole, "/lidar/points ")) << whole.output;
+  EXPECT_FALSE(holds(left, "/lidar/points ")) << left.output;
+  EXPECT_TRUE(holds(left, "/imu/data ")) << left.output;
+  const Outcome check = aims("check legs.bag --system aims_d,lio");
+  EXPECT_TRUE(holds(check,
+                    "aims_d: poor: 3-D LiDAR clouds: found none; "
+                    "--set recording.topics.lidar=none estimates"))
+      << check.output;
+  EXPECT_TRUE(holds(check, "lio: MISSING: 3-D LiDAR clouds")) << check.output;
+  const std::string setting = " --set recording.topics.lidar=none ";
+  EXPECT_EQ(aims("check legs.bag --system aims_d" + setting).exit_code, 0);
+  const Outcome estimate = aims(
+      "estimate legs.bag --estimators aims_d --no-pictures --no-page --quiet --out legs" + setting);
+  EXPECT_NE(estimate.exit_code, 2) << estimate.output;
+  EXPECT_TRUE(fs::exists(folder_.path() / "legs" / "aims_d.tum")) << estimate.output;
+}
+
 TEST_F(Recordings, ABagThatHoldsTheTruthIsScoredAsTheRunIs) {
   const Outcome run = aims("run " + scenario(kShortWalk) +
                            " --estimators aims_d --no-pictures --quiet --out direct");

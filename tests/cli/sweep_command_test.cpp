@@ -88,6 +88,28 @@ TEST_F(Sweeps, AreDoneOnceContinuedAndMerged) {
   EXPECT_TRUE(fs::exists(folder_.path() / "out" / "sweep.csv"));
 }
 
+TEST_F(Sweeps, MergedIntoAFolderOfItsOwnHaveAPageAndSayWhatWasDoneTwice) {
+  ASSERT_EQ(sweep("--out first --shard 1/2").exit_code, 0);
+  ASSERT_EQ(sweep("--out second --shard 2/2").exit_code, 0);
+  const Outcome shards = aims("merge first second --out all");
+  EXPECT_EQ(shards.exit_code, 0) << shards.output;
+  EXPECT_TRUE(holds(shards, "4 of 4 jobs done: all/sweep.sqlite")) << shards.output;
+  EXPECT_FALSE(holds(shards, "note: ")) << shards.output;
+  EXPECT_TRUE(holds(shards, "page: all/page.html")) << shards.output;
+  EXPECT_TRUE(fs::exists(folder_.path() / "all" / "page.html"));
+  // One job of the first shard fails on another machine.
+  fs::copy(folder_.path() / "first", folder_.path() / "failed", fs::copy_options::recursive);
+  const fs::path job = fs::directory_iterator(folder_.path() / "failed" / "jobs")->path();
+  nlohmann::json json = nlohmann::json::parse(*read_file(job));
+  json["outcome"] = "failed";
+  json["message"] = "no such file";
+  std::ofstream(job) << json.dump();
+  const Outcome twice = aims("merge failed first second --out twice");
+  EXPECT_EQ(twice.exit_code, 0) << twice.output;
+  EXPECT_TRUE(holds(twice, "note: 1 job failed in one folder and is done in another, which counts"))
+      << twice.output;
+}
+
 TEST_F(Sweeps, ListTheIdsThatTheirFilesWillHave) {
   const Outcome list = sweep("--list");
   ASSERT_EQ(list.exit_code, 0) << list.output;

@@ -47,6 +47,14 @@ class Unrigid(Legs):
         return 2.0 * super().add_legs(*arguments)
 
 
+class NotFinite(Legs):
+    """Every tenth pose is not finite."""
+
+    def add_legs(self, *arguments):
+        pose = super().add_legs(*arguments)
+        return pose * np.nan if self.count % 10 == 0 else pose
+
+
 class Keeps:
     """Keeps every scan, and raises at the end if one of them has changed since."""
 

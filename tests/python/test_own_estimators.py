@@ -4,6 +4,7 @@
 import csv
 import json
 import pathlib
+import re
 import shutil
 import sys
 
@@ -50,6 +51,30 @@ def test_run_and_suite_score_it_like_any_other(own):
                  "mine=python:own_estimators.Legs", "-o", "suite")
     suite = json.loads((own / "suite" / "suite.json").read_text())
     assert "mine" in json.dumps(suite)
+
+
+def test_poses_that_are_not_finite_are_counted_and_said(own):
+    spec = ("--estimators", "mine=python:own_estimators.NotFinite,leg")
+    out, _ = run(own, "run", "walk.yaml", *spec, "-o", "not-finite")
+    scores = json.loads((own / "not-finite" / "scores.json").read_text())["estimators"]["mine"]
+    assert scores["poses_invalid"] == scores["poses"] // 10 > 0
+    assert not scores["success"] and scores["diverged_reason"] == "invalid_pose"
+    warning = f"walk mine seed 1: {scores['poses_invalid']} of {scores['poses']} poses left out"
+    assert warning in out
+    out, _ = run(own, "suite", "walk.yaml", *spec, "-o", "not-finite-suite")
+    assert warning in out
+    out, _ = run(own, "estimate", "walk.bag", *spec, "-o", "not-finite-bag")
+    assert re.search(r"note: mine: \d+ of \d+ poses are not finite or not rigid", out), out
+    estimated = json.loads((own / "not-finite-bag" / "scores.json").read_text())["estimators"]
+    assert estimated["mine"]["poses_invalid"] > 0 and estimated["leg"]["poses_invalid"] == 0
+
+
+def test_a_study_of_settings_varies_those_of_the_class_alone(own):
+    program("study", "sensitivity", "walk.yaml", "--estimators", "python:own_estimators.Legs",
+            "--factors", "2", "--quiet", "-o", "settings", cwd=own,
+            env={"AIMS_PYTHON": sys.executable})
+    settings = json.loads((own / "settings" / "sensitivity.json").read_text())["settings"]
+    assert "scale" in settings and "call_timeout" not in settings
 
 
 def test_an_unchanged_class_is_not_run_again_and_a_changed_one_is(own):

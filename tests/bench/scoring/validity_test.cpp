@@ -246,5 +246,50 @@ TEST(ScoreStatistics, OfErrorsWithASignTheWorstIsTheLargest) {
   EXPECT_EQ(worst_of({0.0, 1.0}, "success"), 0.0);
 }
 
+/// Whether the legend explains stars, lost medians and parts.
+std::vector<bool> explained(const std::vector<RunRecord>& runs) {
+  const std::string legend = score_legend(runs, {});
+  const auto has = [&](const char* text) { return legend.find(text) != std::string::npos; };
+  return {has("A star: "), has("x: a median"), has("part: over the parts")};
+}
+
+TEST(ScoreTable, ExplainsOnlyTheMarksThatStandInIt) {
+  std::vector<RunRecord> runs = {record(1, 0.2, kFine), record(2, 0.2, kFine)};
+  EXPECT_EQ(explained(runs), (std::vector{false, false, false})) << "one estimator is no best";
+  for (RunRecord& run : runs) {
+    run.scores["failures"] = {{{"estimator", "broken"}, {"message", "no such file"}}};
+  }
+  EXPECT_EQ(explained(runs), (std::vector{true, false, false})) << "a row without figures";
+  for (RunRecord& run : runs) {
+    run.scores["estimators"]["stops"] = {
+        {"ate_m", 0.1}, {"success", false}, {"diverged_reason", "ends_early"}};
+  }
+  EXPECT_EQ(explained(runs), (std::vector{true, true, true}));
+  for (RunRecord& run : runs) run.scores["estimators"].erase("aims");
+  EXPECT_EQ(explained(runs), (std::vector{false, true, true})) << "no success is best";
+  const std::vector<RunRecord> fine = {record(1, 0.2, kFine)};
+  const std::string both = legend_of_tables({fine, runs}, {});
+  EXPECT_NE(both.find("part: over the parts"), std::string::npos) << "of the second table";
+}
+
+TEST(Validity, AnExampleIsTheFirstValidRunWithAnEstimate) {
+  std::vector<RunRecord> runs = {record(1, 0.2, kFallen), record(2, 0.2, kFine),
+                                 record(3, 0.2, kFine)};
+  EXPECT_EQ(example_run(runs).seed, 2U);
+  runs[1].scores["estimators"] = Json::object();
+  EXPECT_EQ(example_run(runs).seed, 3U);
+  EXPECT_EQ(example_run({runs.data(), 2}).seed, 1U) << "none has one";
+}
+
+TEST(ScoreRecord, NamesTheEstimatorsThatLackAPart) {
+  RunRecord run = record(1, 0.2, kFine);
+  run.scores["estimators"]["stops"] = {{"success", false}, {"diverged_reason", "ends_early"}};
+  run.scores["estimators"]["strays"] = {{"success", false}, {"diverged_reason", "error_limit"}};
+  run.scores["failures"] = {{{"estimator", "broken"}, {"message", "killed"}}};
+  EXPECT_EQ(partial_in(run), (std::vector<std::string>{"stops", "broken"}));
+  run.scores["robot"] = kFallen;
+  EXPECT_TRUE(partial_in(run).empty()) << "an invalid run says nothing";
+}
+
 }  // namespace
 }  // namespace aims

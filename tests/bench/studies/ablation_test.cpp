@@ -103,6 +103,29 @@ TEST(Ablation, RatiosAreOfMediansAndTheirMeanOverScenariosIsGeometric) {
   EXPECT_EQ(ablation.effects[1].compared, 6U);
 }
 
+TEST(Ablation, CountsSuccessesAndComparesWhatLacksAPartByThemAlone) {
+  SuiteCase each;
+  each.scenario.name = "a";
+  each.scenario.run = {"aims_d", "no_legs=aims_d+legs.enabled=false"};
+  for (const std::uint64_t seed : {1, 2}) {
+    each.runs.push_back(record_with(seed, {{"aims_d", 0.1}, {"no_legs", 0.2}}));
+  }
+  Json& stops = each.runs[1].scores["estimators"]["no_legs"];
+  stops["success"] = false;
+  stops["diverged_reason"] = "ends_early";
+  Suite suite;
+  suite.cases.push_back(std::move(each));
+  const TextTable table = case_table(ablation_of(suite, "aims_d").cases.at(0));
+  const auto cell = [&](std::size_t row, const std::string& title) {
+    const auto at = std::ranges::find(table.header, title) - table.header.begin();
+    return at < std::ssize(table.header) ? table.rows[row][static_cast<std::size_t>(at)] : "";
+  };
+  EXPECT_EQ(cell(0, "ATE yaw [m]"), "0.100 (x1)");
+  EXPECT_EQ(cell(1, "ATE yaw [m]"), "0.200 (x2), 1 of 2");
+  EXPECT_EQ(cell(0, "within 5 %"), "2/2 (34-100 %)");
+  EXPECT_EQ(cell(1, "within 5 %"), "1/2 (9-91 %)");
+}
+
 TEST(Ablation, DoesAllVariantsOnOneSequenceAndContinues) {
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "out";

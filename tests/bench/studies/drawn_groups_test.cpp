@@ -96,5 +96,32 @@ TEST(DrawnGroups, FilesHoldWhatTheTableShows) {
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 5);
 }
 
+TEST(DrawnGroups, CountSuccessesAndMarkEstimatesThatLackAPart) {
+  std::vector<RunRecord> runs;
+  for (std::uint64_t i = 0; i < 4; ++i) {
+    runs.push_back(run_of(i, {{"people", i % 2}}, 0.1));
+    runs.back().scores["estimators"]["aims"]["success_1_percent"] = i == 0;
+  }
+  EXPECT_EQ(groups_legend(*group_by_drawn({{"walk", runs}}, "people", 4)), "");
+  Json& stops = runs[3].scores["estimators"]["aims"];
+  stops["success"] = false;
+  stops["diverged_reason"] = "ends_early";
+  const auto groups = group_by_drawn({{"walk", runs}}, "people", 4);
+  ASSERT_TRUE(groups);
+  const TextTable table = groups_table(*groups);
+  EXPECT_EQ(table.rows[0][3], "2/2 (34-100 %)");
+  EXPECT_EQ(table.rows[0][4], "1/2 (9-91 %)");
+  EXPECT_EQ(table.rows[1][3], "1/2 (9-91 %)");
+  const auto column = std::ranges::find(table.header, "ATE start [m]") - table.header.begin();
+  ASSERT_LT(column, std::ssize(table.header)) << table.header.back();
+  EXPECT_EQ(table.rows[0][static_cast<std::size_t>(column)], "0.100");
+  EXPECT_EQ(table.rows[1][static_cast<std::size_t>(column)], "0.100 part");
+  EXPECT_NE(groups_legend(*groups).find("part: "), std::string::npos);
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_groups(*groups, "people", "out/random", folder.path()));
+  EXPECT_NE(read_file(folder.path() / "groups.md")->find("part: over the parts"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace aims

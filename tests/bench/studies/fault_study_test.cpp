@@ -8,7 +8,9 @@
 #include <set>
 
 #include "bench/jobs/sequence_cache.hpp"
+#include "core/files/atomic_file.hpp"
 #include "tests/bench/studies/short_walk.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace aims {
 namespace {
@@ -130,6 +132,32 @@ TEST_F(FaultStudy, RefusesAFaultThatDoesNotExist) {
                                  [](std::size_t, std::size_t) { return true; });
   ASSERT_FALSE(cases);
   EXPECT_NE(cases.error().message.find("imu.fire"), std::string::npos);
+}
+
+TEST(FaultTable, NamesFailuresAndCountsThoseThatNobodyNotices) {
+  FaultCase fine;
+  fine.fault = "none";
+  fine.estimator = "mine";
+  fine.success = fine.judged = true;
+  fine.ate_m = 0.1;
+  fine.worst = HealthState::kHealthy;
+  FaultCase silent = fine;
+  silent.fault = "imu.dead";
+  silent.success = false;
+  silent.silent = true;
+  FaultCase ended = silent;
+  ended.fault = "lidar.dead";
+  ended.silent = false;
+  ended.failure = "add_scan: ZeroDivisionError";
+  const std::vector<FaultCase> cases = {fine, silent, ended};
+  const TextTable table = fault_table(cases);
+  EXPECT_EQ(table.rows[0][1], "0.10 healthy");
+  EXPECT_EQ(table.rows[1][1], "SILENT 0.10 healthy");
+  EXPECT_EQ(table.rows[2][1], "failed with an error");
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_faults(cases, "walk seed 1", folder.path()));
+  EXPECT_NE(read_file(folder.path() / "faults.md")->find("1 of 3 cases fail unnoticed (SILENT)"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -179,8 +179,11 @@ TEST_F(SuiteRuns, StateWhatIsSetOnTopAndRefuseAFolderOfOtherSettings) {
 }
 
 TEST_F(SuiteRuns, AreCompleteWithAnEstimatorThatFailed) {
-  const JobResult done{.scores = Json::object(), .sequence = Json::object()};
-  const JobResult failed{.outcome = JobOutcome::kFailed, .message = "add_legs: no"};
+  JobResult done;
+  done.scores = done.sequence = Json::object();
+  JobResult failed;
+  failed.outcome = JobOutcome::kFailed;
+  failed.message = "add_legs: no";
   const std::vector<LabelledResult> results = {{"leg", done}, {"mine", failed}};
   const Json scores = record_of("walk", 1, results).scores;
   EXPECT_EQ(scores["complete"], true) << "the run reached its end";
@@ -227,6 +230,45 @@ TEST(Families, BreakWhereTheErrorDoublesOrRunsDivergeOnEitherSideOfTheMildest) {
   ASSERT_EQ(families[0].curves.size(), 1U);
   EXPECT_EQ(families[0].curves[0].points.front().level, -10.0);
   EXPECT_EQ(families[0].curves[0].breaks_at, std::vector<double>({-10.0, 20.0}));
+}
+
+TEST(Families, NameLevelsThatTheSeedsDoNotTellApartFromTheMildest) {
+  const std::vector<double> base = {0.10, 0.11, 0.12, 0.13, 0.14, 0.15, 0.16, 0.17};
+  std::vector<double> alike = base;  // as often a little better as worse
+  for (std::size_t i = 0; i < alike.size(); ++i) alike[i] += i % 2 ? 0.01 : -0.0099;
+  std::vector<double> worse = base;
+  for (double& ate : worse) ate *= 1.3;
+  Suite suite;
+  suite.cases = {family_case(1.0, base, true), family_case(2.0, alike, true),
+                 family_case(3.0, worse, true), family_case(4.0, base, false)};
+  const FamilyResult family = family_results(suite).at(0);
+  EXPECT_EQ(family.mildest == 1.0 ? family.alike : std::vector{1.0},
+            std::optional(std::vector{family.mildest == 1.0 ? 2.0 : 1.0}))
+      << "3 has larger errors on each seed, 4 no success";
+  EXPECT_EQ(breaks_table({family}).rows.at(0).at(3), family.mildest == 1.0 ? "2" : "1");
+  suite.cases.erase(suite.cases.begin() + 1);
+  EXPECT_EQ(alike_text(family_results(suite).at(0)), "-");
+  for (SuiteCase& each : suite.cases) each.runs.resize(5);
+  const FamilyResult few = family_results(suite).at(0);
+  EXPECT_FALSE(few.alike);
+  EXPECT_EQ(alike_text(few), "fewer than 6 seeds");
+  EXPECT_TRUE(families_json({few})[0]["alike_levels"].is_null());
+}
+
+TEST(SuiteTables, MarkEstimatesThatLackAPartAndSayWhatThatMeans) {
+  Suite suite;
+  suite.cases = {family_case(0.0, {0.1, 0.2}, true), family_case(1.0, {0.1, 0.2}, true)};
+  EXPECT_EQ(suite_markdown(suite, {}).find("part"), std::string::npos);
+  Json& stops = suite.cases[1].runs[0].scores["estimators"]["aims"];
+  stops["success"] = false;
+  stops["diverged_reason"] = "ends_early";
+  const std::string text = suite_markdown(suite, {});
+  EXPECT_NE(text.find(" part |"), std::string::npos) << text;
+  EXPECT_NE(text.find("part: over the parts of the runs that have poses alone."),
+            std::string::npos);
+  const auto points = family_results(suite).at(0).curves.at(0).points;
+  EXPECT_FALSE(points[0].partial);
+  EXPECT_TRUE(points[1].partial);
 }
 
 TEST(Families, BreakWhereEveryRunFails) {

@@ -21,7 +21,7 @@ constexpr const char* kEta = "degeneracy.eta";
 
 MergedJob unit_of(const std::string& scenario, int seed, const Json& settings, double ate) {
   MergedJob unit;
-  unit.listed = {"id", scenario, fmt::format("{}", seed), "aims"};
+  unit.listed = {"id", scenario, fmt::format("{}", seed), "aims", ""};
   unit.file = {{"schema", kJobSchema}, {"scenario", scenario},
                {"family", ""},         {"seed", seed},
                {"estimator", "aims"},  {"settings", settings},
@@ -148,8 +148,9 @@ TEST(SweepReport, NamesSequencesOfWhichNoJobIsDone) {
 // A tuning has the defaults among its points and runs them as such.
 TEST(SweepReport, ADefaultOfZeroHasNoDistanceOnALogarithmicRange) {
   MergedSweep sweep = sweep_over_eta(true);
-  sweep.plans = {"params: [\"degeneracy.eta=log(0.5,6,12)\"]\nscenarios: [corridor]\n"
-                 "set: [estimators.aims.degeneracy.eta=0]\n"};
+  sweep.plans = {
+      "params: [\"degeneracy.eta=log(0.5,6,12)\"]\nscenarios: [corridor]\n"
+      "set: [estimators.aims.degeneracy.eta=0]\n"};
   const TemporaryFolder folder;
   const std::string text = report_of(sweep, folder.path());
   EXPECT_FALSE(says(text, "inf")) << text;

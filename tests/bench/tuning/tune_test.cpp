@@ -257,6 +257,11 @@ TEST(Tune, KeepsTheDefaultsWhereNothingIsBetter) {
   EXPECT_EQ(result->tables[0].points[0], result->task.defaults);
   EXPECT_TRUE(result->held_out.empty()) << "there is nothing to validate";
   EXPECT_TRUE(says(held_out_verdict(*result), "keep the defaults: none of the "));
+  TuneResult one = *result;
+  one.tables[0].points.resize(2);
+  one.tables[0].runs.resize(2);
+  EXPECT_EQ(held_out_verdict(one),
+            "keep the defaults: the one other point is not better on the sequences tuned on");
   const TemporaryFolder folder;
   ASSERT_TRUE(write_tuning(*result, folder.path()));
   const std::string overlay = "@" + (folder.path() / "tuned.yaml").string();
@@ -377,6 +382,15 @@ TEST(Tune, TwoObjectivesGiveAFront) {
   EXPECT_EQ(front.header.size(), 3U + 4U + 1U);
   EXPECT_NE(held_out_verdict(*result).find("front"), std::string::npos)
       << held_out_verdict(*result);
+  TuneResult one = *result;  // a front of one point
+  const std::size_t k = result->chosen.front() == 0 ? 1 : 0;
+  one.chosen = {result->chosen[k]};
+  for (ResponseTable& table : one.held_out) {
+    table.points = {table.points[k]};
+    table.runs = {table.runs[k]};
+  }
+  EXPECT_TRUE(says(held_out_verdict(one), "the one point of the front is "))
+      << held_out_verdict(one);
 }
 
 TEST(FrontVerdict, IsBetterOnlyIfNoObjectiveIsWorse) {
@@ -501,6 +515,12 @@ TEST(TuneReport, OutcomesNameHowManySequencesTheyAreOf) {
   EXPECT_EQ(table.rows[1][1], "8");
 }
 
+JobRun jobs_done(std::size_t count) {
+  JobRun run;
+  run.done = count;
+  return run;
+}
+
 TEST(Tune, ProgressOfAllBatchesNeverFalls) {
   BatchProgress whole(10);
   double before = 0.0;
@@ -516,11 +536,11 @@ TEST(Tune, ProgressOfAllBatchesNeverFalls) {
   };
   EXPECT_DOUBLE_EQ(step(2, 0, 1).fraction, 0.1);
   EXPECT_DOUBLE_EQ(step(2, 0, 2).fraction, 0.2);
-  whole.end(2, {.done = 2});
+  whole.end(2, jobs_done(2));
   EXPECT_DOUBLE_EQ(step(4, 1, 0).fraction, 0.3) << "one was found finished";
   EXPECT_EQ(step(4, 1, 3).done, 6U);
   EXPECT_TRUE(step(4, 1, 3).at_most) << "the search may converge";
-  whole.end(4, {.done = 3});
+  whole.end(4, jobs_done(3));
   EXPECT_EQ(step(4, 0, 0).total, 10U);
   EXPECT_FALSE(step(4, 0, 0).at_most);
   EXPECT_DOUBLE_EQ(step(4, 0, 4).fraction, 1.0);
@@ -540,7 +560,7 @@ TEST(Tune, TimeLeftIsOfWhatIsLeftOfEachKind) {
   batch.simulation = {4, 4.0, 40.0};
   batch.evaluation = {4, 4.0, 4.0};
   EXPECT_NEAR(whole.overall(4, batch).left_s.value(), 596.0, 1e-9);
-  whole.end(4, {.done = 4});
+  whole.end(4, jobs_done(4));
   JobProgress next;
   next.total = 10;
   next.evaluation = {10, 5.0, 5.0};

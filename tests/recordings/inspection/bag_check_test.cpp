@@ -148,6 +148,39 @@ TEST(BagCheck, WithoutCloudsNothingRuns) {
   }
 }
 
+/// What is said of that requirement.
+RequirementCheck check_of(const BagInfo& bag, const std::string& system,
+                          const std::string& requirement) {
+  for (const RequirementCheck& each : check_bag(bag)) {
+    if (each.system == system && each.requirement == requirement) return each;
+  }
+  return {};
+}
+
+TEST(BagCheck, WithoutCloudsThoseWithLegsSayHowTheyRun) {
+  BagInfo bag = good_bag();
+  bag.clouds.clear();
+  bag.used.lidar = "";
+  bag.transforms.clear();
+  bag.refusal = "no LiDAR";
+  bag.opens_without_lidar = true;
+  for (const char* system : {"aims_d", "aims"}) {
+    EXPECT_EQ(worst(bag, system), Fulfilment::kPoor) << system;
+    EXPECT_NE(
+        check_of(bag, system, "3-D LiDAR clouds").remedy.find("--set recording.topics.lidar=none"),
+        std::string::npos);
+  }
+  EXPECT_EQ(worst(bag, "lio"), Fulfilment::kMissing);
+  EXPECT_EQ(worst(bag, "Leg-KILO"), Fulfilment::kMissing);
+  bag.refusal.reset();  // as with that setting
+  bag.opens_without_lidar = false;
+  EXPECT_EQ(worst(bag, "aims_d"), Fulfilment::kMet);
+  EXPECT_EQ(check_of(bag, "aims_d", "3-D LiDAR clouds").found, "not used (topics.lidar: none)");
+  EXPECT_EQ(worst(bag, "lio"), Fulfilment::kMissing);
+  bag.used.leg_odometry = bag.used.joint_states = "";
+  EXPECT_EQ(worst(bag, "aims_d"), Fulfilment::kMissing) << "without legs";
+}
+
 TEST(BagCheck, AnUnreadableCloudTopicCountsAsMissing) {
   BagInfo bag = good_bag();
   bag.clouds[0].clouds = 0;

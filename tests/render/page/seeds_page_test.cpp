@@ -9,6 +9,7 @@
 
 #include "core/series_style.hpp"
 #include "render/page/page.hpp"
+#include "render/page/run_page.hpp"
 #include "tests/render/page/written_run.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -110,6 +111,38 @@ TEST(SeedsPage, WithoutSeedsThereIsNone) {
   const TemporaryFolder folder;
   EXPECT_TRUE(seed_folders(folder.path()).empty());
   EXPECT_FALSE(seeds_page(folder.path(), {}));
+}
+
+TEST(SeedsPage, SaysWhatWasSetOnce) {
+  const TemporaryFolder folder;
+  write_seeds(folder.path(), {1, 2});
+  for (const char* seed : {"seed-1", "seed-2"}) {
+    testing::put(folder.path() / seed / "config.yaml",
+                 "description: \"A walk. With changed settings: lidar.columns=90.\"\n");
+  }
+  testing::put(folder.path() / "summary.json", R"({"settings": ["lidar.columns=90"]})");
+  const auto page = seeds_page(folder.path(), {});
+  ASSERT_TRUE(page) << page.error().message;
+  EXPECT_EQ(page->json["description"], "A walk.");
+  EXPECT_EQ(page->json["suite"]["settings"], Json::parse(R"(["lidar.columns=90"])"));
+}
+
+TEST(SeedsPage, NamesEstimatesThatLackAPart) {
+  const TemporaryFolder folder;
+  write_seeds(folder.path(), {1, 2});
+  const fs::path file = folder.path() / "seed-2/scores.json";
+  Json scores = Json::parse(testing::content(file));
+  scores["estimators"]["exact"]["success"] = false;
+  scores["estimators"]["exact"]["diverged_reason"] = "ends_early";
+  scores["failures"] = {{{"estimator", "broken"}, {"message", "killed"}}};
+  testing::put(file, scores.dump(2));
+  const auto page = seeds_page(folder.path(), {});
+  ASSERT_TRUE(page) << page.error().message;
+  EXPECT_EQ(page->json["runs"][0]["partial"], Json::array());
+  EXPECT_EQ(page->json["runs"][1]["partial"], Json::parse(R"(["exact", "broken"])"));
+  const auto run = run_page(folder.path() / "seed-2");
+  ASSERT_TRUE(run) << run.error().message;
+  EXPECT_EQ(run->json["partial"], Json::parse(R"(["exact", "broken"])"));
 }
 
 }  // namespace

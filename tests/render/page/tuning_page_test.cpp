@@ -195,6 +195,23 @@ TEST(TuningPage, TheAnalysisIsThatOfTheMergedSweep) {
   EXPECT_EQ(page.f32(analysis["maps"][0]["measured"]["value"]).size(), 12U);
 }
 
+TEST(TuningPage, OfShardsInSeveralFoldersIsThatOfTheWhole) {
+  const TemporaryFolder folder;
+  Units units(folder.path() / "whole");
+  write_grid(units, true);
+  const std::vector<fs::path> shards = {folder.path() / "first", folder.path() / "second"};
+  for (const fs::path& shard : shards) fs::copy(units.folder(), shard, fs::copy_options::recursive);
+  std::size_t count = 0;
+  for (const auto& entry : fs::directory_iterator(units.folder() / "jobs")) {
+    fs::remove(shards[count++ % 2] / "jobs" / entry.path().filename());
+  }
+  const auto merged = merge_sweeps(shards);
+  ASSERT_TRUE(merged) << merged.error().message;
+  const auto page = tuning_page(merged_source(*merged, Objective()), folder.path());
+  ASSERT_TRUE(page) << page.error().message;
+  EXPECT_EQ(payload_text(*page), payload_text(*tuning_page(units.folder(), {})));
+}
+
 TEST(TuningPage, ACurveOfOneScenarioHasItsNameAndNotThatOfItsFamily) {
   const TemporaryFolder folder;
   Units units(folder.path());

@@ -223,6 +223,8 @@ export interface RunPayload extends PagePayload {
   config_changes?: ConfigChange[] | null;
   /** scores.json as it was written. */
   scores: Json;
+  /** Estimators whose estimate lacks a part of the run (`is_partial`). */
+  partial: string[];
   scene: Scene | null;
   waypoint_times: WaypointTime[] | null;
   truth: Poses | null;

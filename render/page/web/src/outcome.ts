@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** Why an estimate is no success, in the words of every page; the reasons are those of scores.json. */
-import { formatFixed, isNumber } from "./format";
+import { formatFixed, formatNumber, isNumber } from "./format";
 
 const kNames: Record<string, string> = {
   gap: "gap", starts_late: "starts late", ends_early: "ends early", no_poses: "no poses", no_overlap: "no poses in the time of the truth",
@@ -28,4 +28,19 @@ export function failureCount(reasons: unknown[], failed: number, runs: number): 
   if (names.length === 0 || (names.length === 1 && names[0] === "diverged")) return `${failed} of ${runs} diverged`;
   const text = names.length === 1 ? names[0]! : names.map((name) => `${counts.get(name)} ${name}`).join(", ");
   return `${failed} of ${runs}: ${text}`;
+}
+
+const kPart = " part";
+
+/** What that mark means. */
+export const kPartLegend = "part: over the parts of the runs that have poses alone.";
+
+/** The mark of a value whose estimates lack a part of a run; nothing without a value. */
+export function partMark(value: unknown, partial: boolean): string {
+  return partial && isNumber(value) ? kPart : "";
+}
+
+/** The number with that mark. */
+export function partText(value: unknown, partial: boolean): string {
+  return formatNumber(value) + partMark(value, partial);
 }

@@ -25,6 +25,8 @@ export interface Column<Row> {
 
 export interface TableOptions<Row> {
   caption: string;
+  /** What bold means; stands behind the caption where a cell is bold. */
+  bestLegend?: string;
   /** `data-row` of a row, for those who look for it. */
   rowName?: (row: Row) => string;
   /** Column first sorted by. */
@@ -158,21 +160,22 @@ export function sortableTable<Row>(
       ),
     );
   });
+  const caption = best.some((each) => each !== null) && options.bestLegend ? `${options.caption} ${options.bestLegend}` : options.caption;
   fill(rows);
   if (options.sortBy !== undefined) sortBy(options.sortBy, "ascending");
   const table = h(
     "table",
-    { class: columns.length > 3 ? "stacks" : null, "aria-label": options.caption },
+    { class: columns.length > 3 ? "stacks" : null, "aria-label": caption },
     h("thead", {}, h("tr", {}, ...heads)),
     body,
   );
   return h(
     "div",
     { class: "table-block" },
-    h("p", { class: "caption" }, options.caption),
+    h("p", { class: "caption" }, caption),
     h(
       "div",
-      { class: "table-frame", tabindex: 0, role: "region", "aria-label": options.caption },
+      { class: "table-frame", tabindex: 0, role: "region", "aria-label": caption },
       table,
     ),
   );

@@ -72,6 +72,14 @@ function failed() {
   return page;
 }
 
+/** An estimate that ends early. */
+function part() {
+  const page = run({ count: 100, points: 0 });
+  Object.assign(page.scores.estimators.lio, { success: false, diverged_at_s: 40, diverged_reason: "ends_early" });
+  page.partial = ["lio"];
+  return page;
+}
+
 function empty() {
   return {
     schema: "aims.page/2",
@@ -90,6 +98,7 @@ function empty() {
     config_yaml: null,
     config_changes: null,
     scores: null,
+    partial: [],
     scene: null,
     waypoint_times: null,
     truth: null,
@@ -102,6 +111,7 @@ function empty() {
 
 export const kCases = {
   run: () => run(),
+  part,
   large: () =>
     run({
       names: ["aims_d", "aims", "lio", "tfs", "leg"],

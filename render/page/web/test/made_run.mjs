@@ -283,6 +283,7 @@ export function run({
       { key: "scene.corridor.length", value: 78.6, default: 40, unit: "m" },
       { key: "route.speed", value: 0.7, default: 0.5, unit: "m/s" },
     ],
+    partial: [],
     scores: {
       schema: "aims.scores/1",
       segments: [

@@ -73,6 +73,21 @@ describe(
       assert.match(await held.page.innerText("[data-verdict]"), /^lio and aims keep .* within [^]*3 of 4 estimators succeeded\. tfs diverged 181 s after the start\./);
       await held.context.close();
     });
+    test("scores of an estimate that ends early are marked, and a legend says so", async () => {
+      const legend = /part: over the parts of the runs that have poses alone/;
+      const { page, context } = await open(browser, files.part);
+      for (const table of ["paper", "errors"]) {
+        const place = page.locator(`[data-table="${table}"]`);
+        assert.match(await place.locator('tr[data-row="lio"]').innerText(), /\d part\b/, table);
+        assert.doesNotMatch(await place.locator('tr[data-row="aims"]').innerText(), /part\b/, table);
+        assert.match(await place.locator(".caption").innerText(), legend, table);
+      }
+      assert.doesNotMatch(await page.innerText('[data-table="times"]'), /part\b/);
+      await context.close();
+      const whole = await open(browser, files.run);
+      assert.doesNotMatch(await whole.page.innerText("body"), legend);
+      await whole.context.close();
+    });
     test("six thousand samples of five estimators answer a key within a few frames", async () => {
       const { page, context, troubles } = await open(browser, files.large);
       await page.locator(".strips").focus();

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFile, writeFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
 import { keepPicture, needlessScrolls, overflows, stage, whySkipped } from "./made_up.mjs";
-import { comparison, consistency, detectors, paper, kHostile, suite } from "./suite_fixtures.mjs";
+import { comparison, consistency, detectors, lackPart, paper, kHostile, suite } from "./suite_fixtures.mjs";
 
 const skip = whySkipped();
 let pages;
@@ -55,7 +55,7 @@ test("a gap, a late start and a failure to run are named wherever runs are", { s
   const data = suite({ names: ["one"] });
   const [one] = data.suite.scenarios;
   one.estimators.b = { ...one.estimators.b, successes: 0, success_rate: 0 };
-  for (const run of data.runs) run.estimators.b = { success: false, diverged_at_s: 10, diverged_reason: "gap", ate_m: 0.01 };
+  for (const seed of [1, 2, 3]) lackPart(data, seed, "b", { diverged_at_s: 10, diverged_reason: "gap", ate_m: 0.01 });
   data.suite.failures = [{ scenario: "one", seed: 2, estimator: "broken, b", message: "no such file" }];
   const { page, troubles } = await pages.show(data);
   assert.match(await cell(page, "one", "b").innerText(), /✕ 3 of 3: gap/);
@@ -70,7 +70,7 @@ test("a gap, a late start and a failure to run are named wherever runs are", { s
 test("one that failed to run on a seed is best of nothing, and the headline says so", { skip }, async () => {
   const data = suite({ names: ["one"] });
   const [one] = data.suite.scenarios;
-  delete data.runs.find((run) => run.seed === 2).estimators.a;
+  lackPart(data, 2, "a");
   one.estimators.a = { ...one.estimators.a, successes: 2, success_rate: 2 / 3 };
   data.suite.failures = [{ scenario: "one", seed: 2, estimator: "a", message: "killed" }];
   const { page, troubles } = await pages.show(data);
@@ -84,12 +84,78 @@ test("one that failed to run on a seed is best of nothing, and the headline says
 test("one that ended early on a seed is best of nothing, and keeps no length in the headline", { skip }, async () => {
   const data = suite({ names: ["one"] });
   const [one] = data.suite.scenarios;
-  data.runs.find((run) => run.seed === 2).estimators.a = { success: false, diverged_at_s: 3, diverged_reason: "ends_early", ate_m: 1e-5 };
+  lackPart(data, 2, "a", { diverged_at_s: 3, diverged_reason: "ends_early", ate_m: 1e-5 });
   one.estimators.a = { ...one.estimators.a, successes: 2, success_rate: 2 / 3 };
   const { page, troubles } = await pages.show(data);
+  const legend = /part: over the parts of the runs that have poses alone/;
+  assert.match(await page.locator('#seeds tr[data-row="a"]').innerText(), /0\.0123 \(0\.0246\) part/);
+  assert.doesNotMatch(await page.locator('#seeds tr[data-row="b"]').innerText(), /part/);
+  assert.match(await page.locator("#seeds .caption").innerText(), legend);
+  assert.match(await cell(page, "one", "a").innerText(), /0\.0123 part/);
+  assert.match(await page.locator("#matrix > div > .soft, #matrix .soft").first().innerText(), legend);
+  await cell(page, "one", "a").locator("button").click();
+  const details = page.locator(".cell-details");
+  assert.match(await details.locator('tr[data-row="2"]').innerText(), /part/);
+  assert.doesNotMatch(await details.locator('tr[data-row="1"]').innerText(), /part/);
+  await page.locator("#matrix .toolbar select").first().selectOption("success rate");
+  assert.doesNotMatch(await cell(page, "one", "a").innerText(), /part/, "a rate counts every run");
   assert.match(await page.innerText("[data-verdict]"), /a ends early on 1 of 3 seeds/);
   assert.equal(await page.locator('#seeds tr[data-row="a"] .best').count(), 0);
   assert.equal(await page.locator('#matrix td[data-estimator="a"].best').count(), 0);
+  assert.deepEqual(troubles, []);
+});
+
+test("of whole estimates no legend speaks of parts, and of one estimator none of the best", { skip }, async () => {
+  const data = suite({ names: ["one"] });
+  const whole = await pages.show(data);
+  assert.doesNotMatch(await whole.page.innerText("body"), /part: over/);
+  assert.match(await whole.page.locator("#seeds .caption").innerText(), /Bold: best/);
+  assert.doesNotMatch(await whole.page.locator("#seeds .caption").innerText(), /✕/);
+  const [one] = data.suite.scenarios;
+  delete one.estimators.b;
+  for (const run of data.runs) delete run.estimators.b;
+  const alone = await pages.show(data);
+  assert.doesNotMatch(await alone.page.locator("#seeds .caption").innerText(), /Bold/);
+});
+
+test("the level of a family marks estimates that lack a part and levels that are as mild", { skip }, async () => {
+  const data = suite();
+  const [family] = data.suite.families;
+  family.estimators.b.points[1].partial = true;
+  family.alike_levels = [2];
+  const { page, troubles } = await pages.show(data);
+  await page.locator("#families summary").click();
+  assert.match(await page.locator('#families tr[data-row="2"]').innerText(), /0\.100 part/);
+  assert.match(await page.locator("#families .caption").innerText(), /part: over the parts/);
+  assert.match(await page.innerText("#families"), /Not told apart from the mildest: 2\./);
+  assert.deepEqual(troubles, []);
+});
+
+test("what failed on an invalid run is no failure of an estimator", { skip }, async () => {
+  const data = suite({ names: ["one"] });
+  const run = data.runs.find((each) => each.seed === 2);
+  run.invalid = "the robot fell at 1.2 s";
+  run.estimators = {};
+  data.suite.scenarios[0].invalid = [{ seed: 2, reason: run.invalid }];
+  data.suite.failures = [{ scenario: "one", seed: 2, estimator: "mine", message: "no scans" }];
+  const { page, troubles } = await pages.show(data);
+  assert.equal(await page.locator("[data-failures]").count(), 0);
+  assert.doesNotMatch(await page.innerText("body"), /failed on every run/);
+  assert.match(await page.innerText("#failures"), /one, seed 2, mine \(on an invalid run\): no scans/);
+  assert.deepEqual(troubles, []);
+});
+
+test("the headline over seeds names an error in height", { skip }, async () => {
+  const data = suite({ names: ["one"] });
+  const { b } = data.suite.scenarios[0].estimators;
+  Object.assign(b, { successes: 0, success_rate: 0 });
+  b.scores["m_list_percent.all"] = { median: 0.5, worst: 0.6, count: 3 };
+  b.scores["drift_m.rmse.vertical"] = { median: 2, worst: 3, count: 3 };
+  b.scores["drift_m.rmse.longitudinal"] = { median: 0.1, worst: 0.2, count: 3 };
+  b.scores.max_error_z_m = { median: 4, worst: 7, count: 3 };
+  for (const run of data.runs) run.estimators.b.success = false;
+  const { page, troubles } = await pages.show(data);
+  assert.match(await page.innerText("[data-verdict]"), /b is up to 7\.0 m off in height, its length by 0\.5/);
   assert.deepEqual(troubles, []);
 });
 

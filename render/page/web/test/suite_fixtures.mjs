@@ -39,6 +39,7 @@ export function suite({ first = "a", names = ["severity_1", "severity_2", "sever
   const levels = (name) => scenarios.slice(0, 3).map((each, i) => point(i + 1, each.estimators[name]));
   const runs = scenarios.flatMap((each) => each.seeds.map((seed) => ({
     scenario: each.name, seed, href: seed === 1 ? `runs/${encodeURIComponent(each.name)}/seed-1/page.html` : null,
+    partial: [],
     estimators: {
       [first]: { success: true, diverged_at_s: null, diverged_reason: "", ate_m: 0.01 * seed, m_end_m: 0.02 },
       b: { success: each !== scenarios[2], diverged_at_s: each === scenarios[2] ? 12.5 : null, diverged_reason: "error_limit", ate_m: 0.5 },
@@ -54,6 +55,15 @@ export function suite({ first = "a", names = ["severity_1", "severity_2", "sever
         estimators: { [first]: { breaks_at: [3], points: levels(first) }, b: { breaks_at: [], points: levels("b") } } }],
     },
   };
+}
+
+/** The run of that seed, on which `name` ends with that outcome, which lacks a part of the run; without one it failed. */
+export function lackPart(data, seed, name, outcome) {
+  const run = data.runs.find((each) => each.seed === seed);
+  run.partial = [...run.partial, name];
+  if (outcome) run.estimators[name] = { success: false, ...outcome };
+  else delete run.estimators[name];
+  return run;
 }
 
 /** Two indices at two levels, one of them without a curve. */

@@ -5,13 +5,15 @@ import { at, h, own, section, type Child } from "../dom";
 import { formatFixed, formatNumber, isNumber, kNone } from "../format";
 import { sortableTable, type CellValue, type Column } from "../table";
 import { lineSample } from "../charts/svg";
-import { failureMark } from "../outcome";
+import { failureMark, kPartLegend, partText } from "../outcome";
 import { expectationsOf, limitsOf } from "./verdict";
 
 interface Row {
   name: string;
   colour: number | null;
   scores: unknown;
+  /** Does the estimate lack a part of the run? */
+  partial: boolean;
 }
 
 const numberAt = (object: unknown, ...path: string[]): CellValue => {
@@ -26,12 +28,13 @@ function rows(data: RunPayload): Row[] {
     name: item.name,
     colour: item.colour_index,
     scores: own(scores, item.name),
+    partial: data.partial.includes(item.name),
   }));
   const names = new Set(known.map((row) => row.name));
   const others = Object.keys(scores).filter((name) => !names.has(name));
   return [
     ...known,
-    ...others.map((name): Row => ({ name, colour: null, scores: own(scores, name) })),
+    ...others.map((name): Row => ({ name, colour: null, scores: own(scores, name), partial: data.partial.includes(name) })),
   ];
 }
 
@@ -53,6 +56,17 @@ function score(title: string, unit: string, path: string[], hint?: string): Colu
     eligible: success,
     value: (row) => numberAt(row.scores, ...path),
   };
+}
+
+/** The columns of scores with the mark of an estimate that lacks a part of the run. */
+function withParts(columns: Column<Row>[]): Column<Row>[] {
+  return columns.map((column) =>
+    (column.best ? { ...column, show: (row) => partText(column.value(row), row.partial) } : column));
+}
+
+/** What that mark means, behind a caption; empty where none stands. */
+function partLegend(list: Row[], columns: Column<Row>[]): string {
+  return list.some((row) => row.partial && columns.some((column) => column.best && isNumber(column.value(row)))) ? ` ${kPartLegend}` : "";
 }
 
 /** The column in thousandths of what the score has. */
@@ -98,10 +112,12 @@ function paperTable(data: RunPayload, list: Row[]): HTMLElement {
     { title: "Success", hint: "Or when it diverged, in seconds after the start", value: (row) => outcome(data, row) },
     ...(list.some((row) => at(row.scores, "health", "worst") !== undefined) ? [healthColumn] : []),
   ];
-  return sortableTable(list, columns.filter((column) => column.show || column === nameColumn || list.some((row) => column.value(row) !== null)), {
+  const shown = columns.filter((column) => column.show || column === nameColumn || list.some((row) => column.value(row) !== null));
+  return sortableTable(list, withParts(shown), {
     caption:
-      "ATE yaw: aligned by heading and translation; M_end and max |z|: by the first pose. Bold: best of those that " +
-      `succeeded. –: no value. ✕: when it diverged, after the start.${endNote(list)}`,
+      "ATE yaw: aligned by heading and translation; M_end and max |z|: by the first pose. –: no value. " +
+      `✕: when it diverged, after the start.${partLegend(list, shown)}${endNote(list)}`,
+    bestLegend: "Bold: best of those that succeeded.",
     rowName: (row) => row.name,
   });
 }
@@ -175,8 +191,8 @@ function errorTable(data: RunPayload, list: Row[]): HTMLElement {
     milli(score("tilt", "mrad", ["drift_m", "rmse", "tilt_rad"], "RMSE of roll and pitch together")),
   ];
   const known = scores.filter((column) => list.some((row) => column.value(row) !== null));
-  return sortableTable(list, [nameColumn, ...known], {
-    caption: "Errors against the truth",
+  return sortableTable(list, [nameColumn, ...withParts(known)], {
+    caption: `Errors against the truth.${partLegend(list, known)}`,
     rowName: (row) => row.name,
   });
 }

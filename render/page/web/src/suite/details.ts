@@ -2,7 +2,7 @@
 /** What is behind one cell of the matrix: its runs by seed, and all of its scores. */
 import { h } from "../dom";
 import { isNumber } from "../format";
-import { failureMark, reasonName } from "../outcome";
+import { failureMark, kPartLegend, partText, reasonName } from "../outcome";
 import { sortableTable, type Column } from "../table";
 import { runsOf, summaryOf, titleOf, type Run, type ScoreSummary, type SuitePayload, type SuiteScenario } from "./model";
 
@@ -16,6 +16,8 @@ function numberAt(record: Record<string, unknown>, key: string): number | null {
 }
 
 function runTable(data: SuitePayload, scenario: SuiteScenario, estimator: string): HTMLElement {
+  const runs = runsOf(data, scenario.name);
+  const isPart = (run: Run) => run.partial.includes(estimator);
   const columns: Column<Run>[] = [
     {
       title: "seed", value: (run) => run.seed,
@@ -35,12 +37,13 @@ function runTable(data: SuitePayload, scenario: SuiteScenario, estimator: string
       },
     },
     ...data.headline.map((score): Column<Run> => ({
-      title: score.title, unit: score.unit, best: "low", eligible: (run) => !run.invalid,
+      title: score.title, unit: score.unit, best: "low", eligible: (run) => !run.invalid && !isPart(run),
       value: (run) => numberAt(outcome(run, estimator), score.key),
+      show: (run) => partText(numberAt(outcome(run, estimator), score.key), isPart(run)),
     })),
   ];
-  return sortableTable(runsOf(data, scenario.name), columns, {
-    caption: "Runs", rowName: (run) => String(run.seed),
+  return sortableTable(runs, columns, {
+    caption: runs.some(isPart) ? `Runs. ${kPartLegend}` : "Runs", rowName: (run) => String(run.seed),
   });
 }
 

@@ -4,6 +4,7 @@ import { chart, type Line, type Mark } from "../charts/chart";
 import { choice } from "../charts/controls";
 import { h, own, section } from "../dom";
 import { isNumber } from "../format";
+import { kPartLegend, partText } from "../outcome";
 import { sortableTable, type Column } from "../table";
 import { estimatorsOf, styleOf, type Family, type FamilyPoint, type SuitePayload } from "./model";
 
@@ -63,11 +64,14 @@ function table(family: Family, names: string[], quantity: Quantity): HTMLElement
       rows[i]!.of.set(name, point);
     });
   }
+  const isPart = (point: FamilyPoint | undefined) => quantity.value !== "success_rate" && point?.partial === true;
+  const marked = rows.some(({ of }) => [...of.values()].some((point) => isPart(point) && isNumber(point[quantity.value])));
   const columns: Column<TableRow>[] = [
     { title: "level", unit: family.level_unit, value: (row) => row.level, show: (row) => String(row.level) },
     { title: "equivalent returns", value: (row) => row.returns, hint: "along the weak axis, median over scans, from the truth" },
     ...names.map((name): Column<TableRow> => ({
       title: name, value: (row) => row.of.get(name)?.[quantity.value],
+      show: (row) => partText(row.of.get(name)?.[quantity.value], isPart(row.of.get(name))),
       interval: (row) => {
         const point = row.of.get(name);
         const low = point?.[quantity.low];
@@ -76,7 +80,15 @@ function table(family: Family, names: string[], quantity: Quantity): HTMLElement
       },
     })),
   ];
-  return sortableTable(rows, columns, { caption: `${quantity.label} over ${family.name}`, rowName: (row) => String(row.level) });
+  return sortableTable(rows, columns, { caption: `${quantity.label} over ${family.name}${marked ? `. ${kPartLegend}` : ""}`, rowName: (row) => String(row.level) });
+}
+
+/** Whether another level may be as mild; empty if not, and in older results. */
+function alikeText(family: Family): string {
+  const { alike_levels: alike } = family;
+  if (alike === null) return " Too few seeds tell whether another level is as mild.";
+  if (!alike || alike.length === 0) return "";
+  return ` Not told apart from the mildest: ${alike.join(", ")}.`;
 }
 
 function breaksText(family: Family, names: string[]): string {
@@ -86,7 +98,7 @@ function breaksText(family: Family, names: string[]): string {
     return `${name} ${breaks.length > 0 ? breaks.join(" and ") : "none"}`;
   }).filter((each) => each !== null);
   return `Breakdown level: ${levels.join(", ")}. An estimator breaks at the first level, counted from the mildest ` +
-    `(${family.mildest_level}), at which more than half of the runs diverge or the median ATE yaw is over both twice that of the mildest and 0.5 % of the route's length.`;
+    `(${family.mildest_level}), at which more than half of the runs diverge or the median ATE yaw is over both twice that of the mildest and 0.5 % of the route's length.${alikeText(family)}`;
 }
 
 /** The section; none without a family. */

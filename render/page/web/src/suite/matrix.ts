@@ -4,7 +4,7 @@ import { unitScale } from "../charts/axis";
 import { choice, tick, type Choice } from "../charts/controls";
 import { h, section } from "../dom";
 import { formatNumber, isNumber, kNone } from "../format";
-import { failureCount } from "../outcome";
+import { failureCount, kPartLegend, partMark } from "../outcome";
 import { details } from "./details";
 import {
   estimatorsOf, firstScore, isWhole, kSuccessRate, reasonsOf, runsOf, scoreKeysOf, summaryOf, titleOf, valueOf,
@@ -129,23 +129,31 @@ function cell({ data, row, view, shade, best, open }: Cells, estimator: string):
   const value = valueOf(row, estimator, view.score, view.statistic);
   const diverged = summary.runs - summary.successes;
   const text = formatNumber(value);
+  const comparable = isComparable(data, row.name, estimator, view);
+  const part = partMark(value, !comparable);
   const why = failureCount(reasonsOf(data, row.name, estimator), diverged, summary.runs);
   const of = diverged > 0 ? `✕ ${why}` : `${summary.runs} of ${summary.runs}`;
   const interval = intervalText(row, estimator, view);
   const amount = isNumber(value) ? Math.round(100 * shade(value)) : 0;
   const button = h("button", {
     type: "button", class: "cell", tabindex: -1,
-    "aria-label": `${row.name}, ${estimator}: ${text === kNone ? "no value" : text}` +
+    "aria-label": `${row.name}, ${estimator}: ${text === kNone ? "no value" : text + part}` +
       `${interval ? `, ${interval}` : ""}; ${diverged > 0 ? why : "none diverged"}`,
     onclick: () => open(row, estimator),
-  }, h("span", { class: "value" }, text),
+  }, h("span", { class: "value" }, text + part),
     interval ? h("span", { class: "interval" }, interval) : null,
     diverged > 0 || summary.runs > 1 ? h("span", { class: "runs" }, of) : null);
   return h("td", {
-    class: ["matrix-cell", diverged > 0 ? "diverged" : "", text === best && isComparable(data, row.name, estimator, view) ? "best" : ""].join(" ").trim(),
+    class: ["matrix-cell", diverged > 0 ? "diverged" : "", text === best && comparable ? "best" : ""].join(" ").trim(),
     style: `--shade: ${view.score === kSuccessRate ? 100 - amount : amount}%`,
     "data-value": isNumber(value) ? value : null, "data-estimator": estimator,
   }, button);
+}
+
+/** Whether a cell has the mark of a part. */
+function anyPart(data: SuitePayload, rows: SuiteScenario[], estimators: string[], view: View): boolean {
+  return rows.some((row) => estimators.some((name) =>
+    isNumber(valueOf(row, name, view.score, view.statistic)) && !isComparable(data, row.name, name, view)));
 }
 
 /** Seeds as links to their pages, where there are any. */
@@ -218,6 +226,7 @@ function matrix(data: SuitePayload, view: View, open: Cells["open"], changed: ()
   });
   const what = view.score === kSuccessRate ? title : `${view.statistic} of ${title}${unit ? ` [${unit}]` : ""}`;
   const caption = `${what}${view.score === kSuccessRate ? "" : " over seeds, with 95 % interval where available (too narrow below ten seeds)"}; ` +
+    (anyPart(data, rows, estimators, view) ? `${kPartLegend.replace(/\.$/, "; ")}` : "") +
     `${rows.length} scenario${rows.length === 1 ? "" : "s"}`;
   const table = h("table", { class: "matrix", "aria-label": caption },
     head(data, estimators, view, changed), h("tbody", {}, ...body));

@@ -3,7 +3,6 @@
 import type { Maybe, Numbers, PagePayload, Picture } from "../contract";
 import { own } from "../dom";
 import { isNumber } from "../format";
-import { reasonName } from "../outcome";
 
 export interface ScoreSummary {
   median: Maybe;
@@ -75,12 +74,16 @@ export interface FamilyPoint {
   success_low?: Maybe;
   success_high?: Maybe;
   runs: number;
+  /** Of some run the estimate lacks a part. */
+  partial?: boolean;
 }
 
 export interface Family {
   name: string;
   level_unit: string;
   mildest_level: number;
+  /** Levels that the seeds do not tell apart from it; null: too few seeds. */
+  alike_levels?: number[] | null;
   median_equivalent_returns?: Maybe[];
   estimators: Record<string, { breaks_at: number[]; points: FamilyPoint[] }>;
 }
@@ -91,6 +94,8 @@ export interface Run {
   href: string | null;
   /** Why the run is invalid; null when it is valid. */
   invalid?: string | null;
+  /** Estimators whose estimate lacks a part of the run, or that failed on it (`is_partial`). */
+  partial: string[];
   estimators: Record<string, Record<string, Maybe | boolean | string>>;
 }
 
@@ -213,6 +218,14 @@ export interface Headline {
   unit: string;
 }
 
+/** A scenario that could not be loaded, or estimators (a list of labels) that failed on one of its sequences. */
+export interface RunFailure {
+  scenario?: string;
+  seed?: Maybe;
+  estimator?: string;
+  message?: string;
+}
+
 export interface SuitePayload extends PagePayload {
   kind: "suite";
   description?: string | null;
@@ -227,7 +240,7 @@ export interface SuitePayload extends PagePayload {
     scenarios: SuiteScenario[];
     families?: Family[];
     success_pairs?: SuccessPair[];
-    failures?: { scenario?: string; seed?: Maybe; estimator?: string; message?: string }[];
+    failures?: RunFailure[];
     /** "key=value" on top of every scenario. */
     settings?: string[];
   };
@@ -311,12 +324,22 @@ export function reasonsOf(data: SuitePayload, scenario: string, estimator: strin
 
 /** Whether none of its estimates leaves a part of a run out, so that its scores are of all that those of others are. */
 export function isWhole(data: SuitePayload, scenario: string, estimator: string): boolean {
-  return reasonsOf(data, scenario, estimator).every((each) => reasonName(each) === "diverged");
+  return runsOf(data, scenario).every((run) => !run.partial.includes(estimator));
 }
 
-/** Estimators that failed to run on a seed of a scenario. */
+/** Whether it is of an invalid run, which says nothing of its estimators. */
+export function isOfInvalidRun(data: SuitePayload, failure: RunFailure): boolean {
+  return data.runs.some((run) => run.invalid && run.scenario === failure.scenario && run.seed === failure.seed);
+}
+
+/** The failures but for those of invalid runs. */
+export function failuresOf(data: SuitePayload): RunFailure[] {
+  return (data.suite.failures ?? []).filter((each) => !isOfInvalidRun(data, each));
+}
+
+/** Estimators that failed to run on a valid seed of a scenario. */
 export function failedOn(data: SuitePayload, scenario: string, seed: number): string[] {
-  return (data.suite.failures ?? []).filter((each) => each.scenario === scenario && each.seed === seed)
+  return failuresOf(data).filter((each) => each.scenario === scenario && each.seed === seed)
     .flatMap((each) => (each.estimator ?? "").split(", ")).filter((name) => name !== "");
 }
 

@@ -6,10 +6,10 @@ import { lineSample } from "../charts/svg";
 import { at, h, own, section } from "../dom";
 import { finding, type Finding } from "../findings";
 import { formatNumber, isNumber, kNone } from "../format";
-import { failureCount, reasonName } from "../outcome";
+import { failureCount, kPartLegend, partMark, reasonName } from "../outcome";
 import { sortableTable, type Column } from "../table";
 import {
-  estimatorsOf, firstScore, isWhole, reasonsOf, runsOf, styleOf, summaryOf, titleOf,
+  estimatorsOf, failuresOf, firstScore, isWhole, reasonsOf, runsOf, styleOf, summaryOf, titleOf,
   type EstimatorSummary, type Headline, type SuitePayload, type SuiteScenario,
 } from "./model";
 
@@ -21,11 +21,17 @@ interface Row {
   seeds: number;
 }
 
-/** Median and worst; marked where no run succeeded, since such a median says nothing. */
+/** Whether it is a median over runs of which none succeeded, which says nothing. */
+function isLost(row: Row, median: unknown): boolean {
+  return row.summary.successes === 0 && isNumber(median);
+}
+
+/** Median and worst; marked where no run succeeded, and where they are of parts of the runs. */
 function scoreColumn(data: SuitePayload, scenario: string, score: Headline): Column<Row> {
   const of = (row: Row) => own<{ median: unknown; worst: unknown }>(row.summary.scores, score.key);
+  const whole = (row: Row) => isWhole(data, scenario, row.name);
   return {
-    title: score.title, unit: score.unit, best: "low", eligible: (row) => row.summary.successes > 0 && row.failed === 0 && isWhole(data, scenario, row.name),
+    title: score.title, unit: score.unit, best: "low", eligible: (row) => row.summary.successes > 0 && whole(row),
     hint: "median over seeds (worst)",
     value: (row) => {
       const median = of(row)?.median;
@@ -34,7 +40,7 @@ function scoreColumn(data: SuitePayload, scenario: string, score: Headline): Col
     show: (row) => {
       const { median, worst } = of(row) ?? {};
       const text = formatNumber(median) + (row.summary.runs > 1 && isNumber(worst) ? ` (${formatNumber(worst)})` : "");
-      return row.summary.successes > 0 || !isNumber(median) ? text : `${text} ✕`;
+      return text + (isLost(row, median) ? " ✕" : "") + partMark(median, !whole(row));
     },
   };
 }
@@ -55,8 +61,7 @@ function reasonText(data: SuitePayload, scenario: string, { name, summary }: Row
 
 function table(data: SuitePayload, scenario: SuiteScenario): HTMLElement {
   const invalid = new Set<unknown>(runsOf(data, scenario.name).filter((run) => run.invalid).map((run) => run.seed));
-  const failures = (data.suite.failures ?? [])
-    .filter((each) => each.scenario === scenario.name && each.estimator && !invalid.has(each.seed));
+  const failures = failuresOf(data).filter((each) => each.scenario === scenario.name && each.estimator);
   const failed = failures.flatMap((each) => each.estimator!.split(", "));
   const names = new Set([...Object.keys(scenario.estimators), ...failed]);
   const rows = [...names].map((name): Row => ({
@@ -78,8 +83,15 @@ function table(data: SuitePayload, scenario: SuiteScenario): HTMLElement {
       show: (row) => (row.summary.runs === 0 ? kNone : `${row.summary.successes_1_percent ?? "–"} of ${row.summary.runs}`),
     },
   ];
+  const scored = rows.filter((row) => data.headline.some(({ key }) => isNumber(at(row.summary.scores, key, "median"))));
+  const legend = [
+    "Median over seeds (worst).", scored.some((row) => row.summary.successes === 0) ? "✕: no run succeeded." : "",
+    scored.some((row) => !isWhole(data, scenario.name, row.name)) ? kPartLegend : "",
+    "Within 5 % (success), 1 %: position error of the distance travelled so far; interval: 95 %.",
+  ];
   return sortableTable(rows, columns.filter((column, i) => i === 0 || rows.some((row) => column.value(row) !== null)), {
-    caption: "Median over seeds (worst). ✕: no run succeeded. Bold: best of those with a success whose estimates lack no part of a run. Within 5 % (success), 1 %: position error of the distance travelled so far; interval: 95 %.", rowName: (row) => row.name,
+    caption: legend.filter((each) => each !== "").join(" "), rowName: (row) => row.name,
+    bestLegend: "Bold: best of those with a success whose estimates lack no part of a run.",
   });
 }
 

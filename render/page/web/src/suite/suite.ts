@@ -10,7 +10,7 @@ import { compareSection } from "./compare";
 import { consistencySection } from "./consistency";
 import { familySection } from "./families";
 import { matrixSection } from "./matrix";
-import { estimatorsOf, type Expectation, type SuitePayload } from "./model";
+import { estimatorsOf, failuresOf, isOfInvalidRun, type Expectation, type SuitePayload } from "./model";
 import { multiplesSection } from "./multiples";
 import { pairsSection } from "./pairs";
 import { paperSection } from "./paper";
@@ -50,13 +50,14 @@ function failureSection(data: SuitePayload): HTMLElement | null {
   return section("failures", "Failed to run", notes(failures.map((each) => {
     const seed = isNumber(each.seed) ? `, seed ${each.seed}` : "";
     const estimator = each.estimator ? `, ${each.estimator}` : "";
-    return `${each.scenario ?? ""}${seed}${estimator}: ${firstLine(each.message)}`;
+    const invalid = isOfInvalidRun(data, each) ? " (on an invalid run)" : "";
+    return `${each.scenario ?? ""}${seed}${estimator}${invalid}: ${firstLine(each.message)}`;
   })));
 }
 
-/** Who failed, above the results that lack it; null for none. */
+/** Who failed on valid runs, above the results that lack it; null for none. */
 function failureBanner(data: SuitePayload): HTMLElement | null {
-  const failures = data.suite.failures ?? [];
+  const failures = failuresOf(data);
   if (failures.length === 0) return null;
   const names = [...new Set(failures.map((each) => each.estimator || each.scenario || ""))];
   return h("div", { class: "banner", role: "alert", "data-failures": failures.length },
@@ -67,7 +68,7 @@ function failureBanner(data: SuitePayload): HTMLElement | null {
 /** How many there are, and how many more failed on every run. */
 function estimatorText(data: SuitePayload): string {
   const names = estimatorsOf(data);
-  const failed = new Set((data.suite.failures ?? []).map((each) => each.estimator ?? "").filter((each) => each && !names.includes(each)));
+  const failed = new Set(failuresOf(data).map((each) => each.estimator ?? "").filter((each) => each && !names.includes(each)));
   return failed.size === 0 ? `${names.length}` : `${names.length}, and ${failed.size} that failed on every run`;
 }
 
