@@ -32,17 +32,19 @@ constexpr std::array kWords = {
     Words{FailureReason::kCoverage, "too little of the time tracked"},
     Words{FailureReason::kInterrupted, "interrupted"}};
 
-/// Appended to the name of a first failure where poses are missing too.
-constexpr const char* kAndPartial = "+partial";
-
 std::string words_of(const std::string& reason) {
-  if (reason.ends_with(kAndPartial)) {
-    return "error beyond the limit of a success, and poses are missing";
-  }
   const auto found = std::ranges::find_if(
       kWords, [&](const Words& each) { return name_of(each.reason) == reason; });
   return found == kWords.end() ? reason : found->text;
 }
+
+/// What failed first, and whether poses are missing beside an error beyond the limit.
+struct Reason {
+  std::string first;
+  bool and_partial = false;
+
+  auto operator<=>(const Reason&) const = default;
+};
 
 /// Of the runs that failed by one reason.
 struct Failed {
@@ -52,9 +54,10 @@ struct Failed {
 };
 
 /// "gap: no poses for too long, at 10.0 to 12.3 s"; a late start has no time of its own.
-std::string reason_text(const std::string& reason, const Failed& failed) {
-  std::string text = words_of(reason);
-  if (!failed.first || reason == name_of(FailureReason::kStartsLate)) return text;
+std::string reason_text(const Reason& reason, const Failed& failed) {
+  std::string text = words_of(reason.first);
+  if (reason.and_partial) text += ", and poses are missing";
+  if (!failed.first || reason.first == name_of(FailureReason::kStartsLate)) return text;
   text += fmt::format(", at {:.1f}", *failed.first);
   if (*failed.last - *failed.first >= 0.05) text += fmt::format(" to {:.1f}", *failed.last);
   return text + " s";
@@ -62,9 +65,9 @@ std::string reason_text(const std::string& reason, const Failed& failed) {
 
 /// The failures of an estimator by their reasons, but for errors and crashes, which are listed on
 /// their own; `runs`: how many valid ones it has, with those.
-std::map<std::string, Failed> failures_of(std::span<const RunRecord> records,
-                                          const std::string& estimator, std::size_t& runs) {
-  std::map<std::string, Failed> failures;
+std::map<Reason, Failed> failures_of(std::span<const RunRecord> records,
+                                     const std::string& estimator, std::size_t& runs) {
+  std::map<Reason, Failed> failures;
   for (const RunRecord& run : records) {
     const Json& scores = estimator_in(run, estimator);
     if (!is_valid_run(run) || (scores.is_null() && !failed_in(run, estimator))) continue;
@@ -72,8 +75,8 @@ std::map<std::string, Failed> failures_of(std::span<const RunRecord> records,
     if (scores.is_null()) continue;
     const std::string reason = value_in(scores, "diverged_reason", "");
     if (value_in(scores, "success", false) || reason.empty()) continue;
-    const bool also_partial = reason == name_of(FailureReason::kErrorLimit) && is_partial(scores);
-    Failed& failed = failures[reason + (also_partial ? kAndPartial : "")];
+    const bool is_error = reason == name_of(FailureReason::kErrorLimit);
+    Failed& failed = failures[{reason, is_error && is_partial(scores)}];
     ++failed.runs;
     const double start = value_in(value_in(run.scores, "truth", Json()), "start_s", 0.0);
     const auto at = number_at(scores, "diverged_at_s");
@@ -91,7 +94,8 @@ std::vector<std::string> failure_lines(std::span<const RunRecord> runs) {
   for (const std::string& name : estimators_in(runs)) {
     std::size_t valid = 0;
     for (const auto& [reason, failed] : failures_of(runs, name, valid)) {
-      if (runs.size() == 1 && reason == name_of(FailureReason::kErrorLimit)) continue;
+      const bool is_error = reason.first == name_of(FailureReason::kErrorLimit);
+      if (runs.size() == 1 && is_error && !reason.and_partial) continue;
       const std::string seeds =
           runs.size() > 1 ? fmt::format(" on {} of {} seeds", failed.runs, valid) : "";
       lines.push_back(fmt::format("{}{}: {}", name, seeds, reason_text(reason, failed)));

@@ -70,7 +70,7 @@ std::string held_out_verdict(const TuneResult& result) {
                        none_better(other_points(result.tables.front()), "other "));
   }
   if (result.held_out.empty() && !result.task.held_out.empty()) {
-    return "not validated: interrupted before the held-out sequences were run";
+    return "not validated: interrupted before the held-out sequences were all run";
   }
   if (result.task.plan.objectives.size() > 1) return front_verdict(result);
   return verdict_text(held_out_gain(result));

@@ -320,14 +320,18 @@ Result<PageData> tuning_page(const TuningSource& source, const fs::path& folder)
   if (!varied) return failure(folder.string() + ": " + varied.error().message);
   Collected all;
   collect(source.units, *varied, false, all);
-  collect(source.held_out, *varied, true, all);
+  const Json tune = tune_in(source, folder);
+  // Some of the held-out runs decide nothing, and to see them would be a look.
+  const bool interrupted = !value_in(tune, "complete", true);
+  const MergedSweep none;
+  const MergedSweep& held_out = interrupted ? none : source.held_out;
+  collect(held_out, *varied, true, all);
   for (auto& each : all.estimators) number_points(source, *varied, each);
   const auto scores = scores_of(source, all);
   PageData page;
   page.title = title_of(source, *varied);
   auto estimators = estimators_json(source, *varied, all, scores, page);
   if (!estimators) return tl::unexpected(estimators.error());
-  const Json tune = tune_in(source, folder);
   page.json = {{"schema", kPageSchema},
                {"kind", "tuning"},
                {"title", page.title},
@@ -337,8 +341,8 @@ Result<PageData> tuning_page(const TuningSource& source, const fs::path& folder)
                {"jobs", counts_json(source.units)},
                {"looked", looked_json(folder)},
                {"front", source.objectives.size() > 1 ? value_in(tune, "verdict", Json()) : Json()},
-               {"interrupted", !value_in(tune, "complete", true)},
-               {"held_out_jobs", counts_json(source.held_out)},
+               {"interrupted", interrupted},
+               {"held_out_jobs", counts_json(held_out)},
                {"scores", scores},
                {"sequences", sequences_json(all.sequences)},
                {"estimators", std::move(*estimators)},

@@ -100,6 +100,21 @@ TEST(Expectations, TakeMedianAndMeanOverAllSeeds) {
             std::string::npos);
 }
 
+// A failed run is a lost success; the error of a part of a run is none of the run.
+TEST(Expectations, OfRunsThatFailedOrLackAPart) {
+  std::vector<RunRecord> runs = kThree;
+  runs[1].scores["estimators"] = Json::object();
+  runs[1].scores["failures"] = {{{"estimator", "aims"}, {"message", "boom"}}};
+  const auto success =
+      check({"aims", "success", kNoLimit, 0.6, ExpectationStatistic::kMean}, runs);
+  EXPECT_TRUE(success.holds);
+  EXPECT_NEAR(*success.value, 2.0 / 3.0, 1e-12);
+  runs[1] = kThree[1];
+  runs[1].scores["estimators"]["aims"]["partial"] = true;
+  EXPECT_FALSE(check({"aims", "ate_m", 10.0}, runs).value);
+  EXPECT_TRUE(check({"aims", "ate_m", 10.0}, kThree).holds);
+}
+
 TEST(Expectations, NameTheSeedsWithoutAValue) {
   std::vector<RunRecord> runs = kThree;
   runs[2].scores["estimators"]["aims"]["ate_m"] = nullptr;

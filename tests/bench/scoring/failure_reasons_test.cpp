@@ -39,6 +39,11 @@ TEST(FailureReasons, ASingleRunNamesOnlyWhatItsTableLacks) {
             std::vector<std::string>{"mine: starts late: no poses near the start"});
   const std::vector<RunRecord> wrong = {run_of(1, "error_limit", 9.0)};
   EXPECT_TRUE(failure_lines(wrong).empty());
+  std::vector<RunRecord> stopped = wrong;
+  stopped[0].scores["estimators"]["mine"]["partial"] = true;
+  EXPECT_EQ(failure_lines(stopped),
+            std::vector<std::string>{"mine: error beyond the limit of a success, and poses are "
+                                     "missing, at 8.0 s"});
   EXPECT_TRUE(failure_lines({}).empty());
 }
 
