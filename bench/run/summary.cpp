@@ -25,9 +25,9 @@ Json summary_json(const SeedRuns& seeds) {
   for (const RunRecord& run : runs) summary["seeds"].push_back(run.seed);
   summary["invalid"] = invalid_json(runs);
   summary["estimators"] = Json::object();
-  const RunRecord& example = example_run(runs);
-  for (const auto& [estimator, unused] : example.scores["estimators"].items()) {
-    for (const std::string& key : score_keys(example, estimator)) {
+  for (const std::string& estimator : estimators_in(runs)) {
+    summary["estimators"][estimator] = Json::object();
+    for (const std::string& key : score_keys_in(runs, estimator)) {
       const ScoreStatistics over_seeds = statistics_of(runs, estimator, key);
       summary["estimators"][estimator][key] = {{"median", json_of(over_seeds.median)},
                                                {"worst", json_of(over_seeds.worst)},

@@ -41,11 +41,19 @@ std::vector<std::string> partial_in(const RunRecord& record) {
   return names;
 }
 
-const RunRecord& example_run(std::span<const RunRecord> runs) {
-  const auto found = std::ranges::find_if(runs, [](const RunRecord& run) {
-    return is_valid_run(run) && !value_in(run.scores, "estimators", Json::object()).empty();
+const RunRecord* example_run(std::span<const RunRecord> runs, const std::string& estimator) {
+  const auto found = std::ranges::find_if(runs, [&](const RunRecord& run) {
+    if (!is_valid_run(run)) return false;
+    return estimator.empty() ? !value_in(run.scores, "estimators", Json::object()).empty()
+                             : !estimator_in(run, estimator).is_null();
   });
-  return found == runs.end() ? runs.front() : *found;
+  return found == runs.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> score_keys_in(std::span<const RunRecord> runs,
+                                       const std::string& estimator) {
+  const RunRecord* example = example_run(runs, estimator);
+  return example == nullptr ? std::vector<std::string>() : score_keys(*example, estimator);
 }
 
 std::string part_mark(bool partial) { return partial ? " part" : ""; }

@@ -33,9 +33,13 @@ bool any_partial(std::span<const RunRecord> runs, const std::string& estimator);
 /// The estimators of a record of which the estimate lacks a part, or that failed.
 std::vector<std::string> partial_in(const RunRecord& record);
 
-/// Of some runs the first valid one with an estimate, which has all segments and keys of scores;
-/// without one the first.
-const RunRecord& example_run(std::span<const RunRecord> runs);
+/// The first valid run in which that estimator has scores, of any with an empty name: it has all
+/// segments of the route. Null without one.
+const RunRecord* example_run(std::span<const RunRecord> runs, const std::string& estimator = "");
+
+/// Dotted keys of the scores of the estimator, by its first valid run.
+std::vector<std::string> score_keys_in(std::span<const RunRecord> runs,
+                                       const std::string& estimator);
 
 /// " part", behind a figure of which that holds; else nothing.
 std::string part_mark(bool partial);

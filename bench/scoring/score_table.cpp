@@ -210,7 +210,9 @@ std::pair<TextTable, Marks> marked_table(std::span<const RunRecord> runs) {
   Marks marks;
   if (runs.empty()) return {table, marks};
   const std::vector<Row> rows = rows_of(runs);
-  std::vector<Column> columns = columns_of(example_run(runs), runs.size() > 1);
+  const RunRecord* example = example_run(runs);
+  std::vector<Column> columns =
+      columns_of(example == nullptr ? runs.front() : *example, runs.size() > 1);
   std::erase_if(columns, [&](const Column& column) {
     return column.optional && std::ranges::none_of(rows, [&](const Row& row) {
              return statistics_in(runs, row, column.key).median.has_value();

@@ -18,11 +18,7 @@ namespace {
 
 Json scores_json(std::span<const RunRecord> runs, const std::string& estimator) {
   Json scores = Json::object();
-  const auto first = std::find_if(runs.begin(), runs.end(), [&](const RunRecord& run) {
-    return is_valid_run(run) && !estimator_in(run, estimator).is_null();
-  });
-  if (first == runs.end()) return scores;
-  for (const std::string& key : score_keys(*first, estimator)) {
+  for (const std::string& key : score_keys_in(runs, estimator)) {
     if (is_timing(key)) continue;
     const ScoreStatistics summary = statistics_of(runs, estimator, key);
     Json score = {{"median", json_of(summary.median)},

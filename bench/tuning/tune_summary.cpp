@@ -16,6 +16,13 @@
 namespace aims {
 namespace {
 
+/// The cases of each table on which its points are compared.
+std::vector<std::vector<std::size_t>> common_cases_of(const std::vector<ResponseTable>& tables) {
+  std::vector<std::vector<std::size_t>> cases;
+  for (const ResponseTable& table : tables) cases.push_back(cases_of(table, ""));
+  return cases;
+}
+
 /// The best objective so far after each generation, a few to a line.
 std::string history_markdown(const TuneResult& result) {
   const ResponseTable& table = result.tables.front();
@@ -216,16 +223,18 @@ TextTable front_table(const TuneResult& result) {
     if (!result.held_out.empty()) text.header.push_back(axis_label(objective) + ", held out");
   }
   if (!result.held_out.empty()) text.header.emplace_back("against the defaults, held out");
+  const auto tuned_on = common_cases_of(result.tables);
+  const auto held_out = common_cases_of(result.held_out);
   const auto row = [&](const std::vector<double>& values, std::size_t point, std::size_t held) {
     std::vector<std::string> cells;
     for (const double value : values) cells.push_back(figure_text(value));
     for (std::size_t i = 0; i < result.tables.size(); ++i) {
       const Objective& objective = task.plan.objectives[i];
       const ResponseTable& table = result.tables[i];
-      cells.push_back(figure_text(objective_at(table, objective, point, cases_of(table, ""))));
+      cells.push_back(figure_text(objective_at(table, objective, point, tuned_on[i])));
       if (result.held_out.empty()) continue;
       const ResponseTable& other = result.held_out[i];
-      cells.push_back(figure_text(objective_at(other, objective, held, cases_of(other, ""))));
+      cells.push_back(figure_text(objective_at(other, objective, held, held_out[i])));
     }
     text.rows.push_back(std::move(cells));
   };

@@ -6,8 +6,11 @@
 #include <algorithm>
 
 #include "bench/run/expectations.hpp"
+#include "bench/run/summary.hpp"
 #include "bench/scoring/score_statistics.hpp"
 #include "bench/scoring/score_table.hpp"
+#include "core/files/atomic_file.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace aims {
 namespace {
@@ -275,10 +278,23 @@ TEST(ScoreTable, ExplainsOnlyTheMarksThatStandInIt) {
 TEST(Validity, AnExampleIsTheFirstValidRunWithAnEstimate) {
   std::vector<RunRecord> runs = {record(1, 0.2, kFallen), record(2, 0.2, kFine),
                                  record(3, 0.2, kFine)};
-  EXPECT_EQ(example_run(runs).seed, 2U);
-  runs[1].scores["estimators"] = Json::object();
-  EXPECT_EQ(example_run(runs).seed, 3U);
-  EXPECT_EQ(example_run({runs.data(), 2}).seed, 1U) << "none has one";
+  EXPECT_EQ(example_run(runs)->seed, 2U);
+  runs[2].scores["estimators"]["late"] = {{"ate_m", 0.3}};
+  EXPECT_EQ(example_run(runs, "late")->seed, 3U);
+  EXPECT_EQ(score_keys_in(runs, "late"), std::vector<std::string>{"ate_m"});
+  EXPECT_EQ(example_run({runs.data(), 1}), nullptr);
+  EXPECT_TRUE(score_keys_in(runs, "nobody").empty());
+}
+
+TEST(Summary, HasAnEstimatorThatFailedOnTheFirstSeed) {
+  std::vector<RunRecord> runs = {record(1, 0.2, kFine), record(2, 0.2, kFine)};
+  runs[0].scores["failures"] = {{{"estimator", "late"}, {"message", "killed"}}};
+  runs[1].scores["estimators"]["late"] = {{"ate_m", 0.3}, {"success", true}};
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_summary({Scenario(), runs, {}}, folder.path()));
+  const Json json = Json::parse(*read_file(folder.path() / "summary.json"));
+  EXPECT_EQ(json["estimators"]["late"]["ate_m"]["median"], 0.3);
+  EXPECT_EQ(json["estimators"]["aims"]["ate_m"]["count"], 2);
 }
 
 TEST(ScoreRecord, NamesTheEstimatorsThatLackAPart) {
