@@ -18,8 +18,8 @@ namespace aims {
 namespace {
 
 constexpr std::string_view kExpected =
-    "they are not joined: expected all four legs, each with its joints or the load of its foot, or "
-    "all legs in one message (docs: Legs without odometry)";
+    "they are not joined: that needs a file with all four legs, each with its joints or the load "
+    "of its foot; else put all legs in one message (docs: Legs in messages of their own)";
 
 /// Whether the messages say themselves of which leg they are.
 bool names_its_leg(const BagConnection& connection) {
