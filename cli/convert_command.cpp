@@ -45,6 +45,7 @@ int convert_command(const ConvertArguments& arguments) {
   if (outcome->lost_bytes > 0) {
     print_out("warning: {} damaged bytes were left out\n", outcome->lost_bytes);
   }
+  if (!outcome->left_out.empty()) print_out("warning: {}\n", outcome->left_out);
   return kOk;
 }
 

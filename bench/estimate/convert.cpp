@@ -73,6 +73,7 @@ Result<ConvertOutcome> convert(const ConvertOptions& options, const Observer& ob
   if (!partial) return tl::unexpected(partial.error());
   ConvertOutcome outcome;
   outcome.lost_bytes = (*source)->summary().lost_bytes;
+  if ((*source)->summary().untimed_rows > 0) outcome.left_out = untimed_text((*source)->summary());
   const auto content = write_recording(**source, *partial, *format, options, observer);
   Result<void> ok;
   if (content && content->complete) {

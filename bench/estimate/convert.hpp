@@ -27,6 +27,7 @@ struct ConvertOptions {
 struct ConvertOutcome {
   ConversionOutcome content;
   std::uint64_t lost_bytes = 0;  ///< of a damaged recording
+  std::string left_out;          ///< rows of a table without a time, in words; empty: none
   std::uintmax_t bytes = 0;      ///< of the new one
 };
 

@@ -114,6 +114,19 @@ void warn_of_feet(EstimateResult& result) {
                      "no leg odometry there (a robot that is carried, or feet whose load is lost)",
                      air / std::max(1.0, result.setup.leg_rate_hz.value_or(0.0))));
   }
+  if (const int bad = count_of(result, "joints_not_finite"); bad > kFewOther * samples) {
+    warn("joints without an angle",
+         fmt::format(
+             "{}: in {} of {:.0f} messages an angle is no number (NaN), or no message of its "
+             "leg comes: the foot of that leg does not count",
+             result.setup.topics.joint_states, bad, samples));
+  }
+  if (const int bad = count_of(result, "foot_loads_not_finite"); bad > kFewOther * samples) {
+    warn("feet without a load",
+         fmt::format("{}: in {} of {:.0f} messages the load of a foot is no number (NaN), or no "
+                     "message of its leg comes: that foot is taken as lifted",
+                     result.setup.topics.contacts, bad, samples));
+  }
   if (const int none = count_of(result, "legs_no_contact"); none > kMost * samples && none > 0) {
     warn("feet hardly ever in contact",
          fmt::format("no foot is in contact in {} of {:.0f} samples of the legs: the last velocity "

@@ -53,6 +53,7 @@ class KindSource : public MessageSource {
     summary_.lost_bytes = lost;
   }
 
+  void set_untimed(std::uint64_t rows) { summary_.untimed_rows = rows; }
   void set_lost_packets(double fraction) { summary_.lost_packets = fraction; }
 
  private:

@@ -43,6 +43,7 @@ void MergedSource::add_summary(const BagSummary& part, Duration shift) {
   summary_.indexed = summary_.indexed && part.indexed;
   summary_.closed = summary_.closed && part.closed;
   summary_.lost_messages += part.lost_messages;
+  summary_.untimed_rows += part.untimed_rows;
   summary_.lost_packets = std::max(summary_.lost_packets, part.lost_packets);
   compressions_.insert(part.compression);
   summary_.compression = fmt::format("{}", fmt::join(compressions_, ", "));

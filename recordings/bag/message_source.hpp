@@ -24,6 +24,9 @@ struct BagConnection {
   bool latching = false;
   std::uint64_t messages = 0;  ///< number in the recording, by its index
   MessageFormat format = {};
+  bool is_part = false;  ///< its messages are joined with others to those of another topic
+  double batch = 0.0;    ///< samples of a batch, where they say when they were taken; 0: none
+  std::string joined_from = {};  ///< the topics of which it is made, in words; empty: none
 };
 
 /// One recorded message; valid until the next call of the reader.
@@ -32,6 +35,11 @@ struct BagMessage {
   Time record_time = 0;             ///< since the epoch
   std::span<const std::byte> data;  ///< in the format of the connection
   std::uint64_t offset = 0;         ///< of the chunk that holds it, in the file [bytes]
+  /// When the sample was taken, where it has no stamp and its record time is that of a batch.
+  std::optional<Time> sampled = std::nullopt;
+
+  /// What serves in place of a stamp.
+  Time taken() const { return sampled.value_or(record_time); }
 };
 
 /// Totals of a recording, from its index.
@@ -47,6 +55,7 @@ struct BagSummary {
   bool closed = true;                   ///< false: its writer never completed it
   std::uint64_t lost_messages = 0;      ///< with impossible times, when recovered
   std::uint64_t repeated_messages = 0;  ///< that several files hold, of those read so far
+  std::uint64_t untimed_rows = 0;       ///< of a table, left out
   double lost_packets = 0.0;            ///< of a LiDAR's in a capture, as a fraction [0 to 1]
   Duration clock_shift = 0;             ///< largest, of files of recorders whose clocks differ
   bool recorded_at_stamps = false;      ///< record times were all the same: stamps took their place

@@ -39,7 +39,7 @@ using Columns = std::vector<std::vector<double>>;
 
 /// The numbers of the table that the mapping names.
 struct Table {
-  std::vector<Time> times;
+  std::vector<std::optional<Time>> times;  ///< nothing: the row has none
   Columns gyro, accelerometer, orientation, joint_position, joint_velocity, foot_force;
 };
 
@@ -114,21 +114,44 @@ std::string plain_text(std::string text) {
   return text;
 }
 
-Result<std::vector<Time>> times_of(const CsvColumns& csv, const CsvMapping& mapping,
-                                   const std::string& file) {
+/// Whether a cell holds no time: it is empty, or no finite number.
+bool is_missing(const std::string& cell) {
+  if (cell.empty()) return true;
+  const auto number = parse_number(cell, false);
+  return number && !std::isfinite(*number);
+}
+
+/// Times of the rows, in order; a few rows may have none.
+Result<std::vector<std::optional<Time>>> times_of(const CsvColumns& csv, const CsvMapping& mapping,
+                                                  const std::string& file) {
+  constexpr std::size_t kMostMissing = 10;  // one of so many rows
   if (!csv.has(mapping.time)) {
     return failure(fmt::format("{}: expected a column '{}' (time)", file, mapping.time));
   }
-  std::vector<Time> times;
-  for (const std::string& cell : csv.texts(mapping.time)) {
+  std::vector<std::optional<Time>> times;
+  Time least = 0;
+  std::size_t missing = 0, first = 0;
+  const std::vector<std::string> cells = csv.texts(mapping.time);
+  for (const std::string& cell : cells) {
+    if (is_missing(cell)) {
+      if (missing++ == 0) first = times.size();
+      times.emplace_back();
+      continue;
+    }
     const auto time = time_of(cell, mapping.time_unit);
-    const Time least = times.empty() ? 0 : times.back();
     if (!time || *time < least) {
       return failure(fmt::format("{}:{}: {}: expected a time >= {} ns, found {}{}", file,
                                  csv.line(times.size()), mapping.time, least, shown(cell),
                                  likely_unit(cell)));
     }
-    times.push_back(*time);
+    least = *time;
+    times.push_back(time);
+  }
+  if (kMostMissing * missing > times.size()) {
+    return failure(fmt::format(
+        "{}:{}: {}: expected a time, found {}, as in {} of {} rows; at most a tenth "
+        "may lack it",
+        file, csv.line(first), mapping.time, shown(cells[first]), missing, times.size()));
   }
   return times;
 }
@@ -188,14 +211,14 @@ std::optional<MessageBytes> imu_of(const Table& table, std::size_t row, double t
   if (const auto q = row_of(table.orientation, row)) {
     sample.orientation = Eigen::Quaterniond((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
   }
-  return imu_message({0, table.times[row], kImuFrame}, sample);
+  return imu_message({0, *table.times[row], kImuFrame}, sample);
 }
 
 std::optional<MessageBytes> forces_of(const Table& table, std::size_t row) {
   const auto forces = row_of(table.foot_force, row);
   if (!forces) return std::nullopt;
   MessageBytes out;
-  put_header(out, table.times[row], kBaseFrame);
+  put_header(out, *table.times[row], kBaseFrame);
   out.length(kFeet.size());
   for (const std::string_view foot : kFeet) out.text(foot);
   out.array(*forces);
@@ -206,7 +229,7 @@ std::optional<MessageBytes> joints_of(const Table& table, std::size_t row) {
   const auto angles = row_of(table.joint_position, row);
   if (!angles) return std::nullopt;
   MessageBytes out;
-  put_header(out, table.times[row], kBaseFrame);
+  put_header(out, *table.times[row], kBaseFrame);
   out.length(angles->size());
   for (const std::string_view foot : kFeet) {
     for (const std::string_view joint : kJoints) out.text(fmt::format("{}_{}_joint", foot, joint));
@@ -228,6 +251,7 @@ struct CsvReader::Impl {
   MessageBytes message = MessageBytes();
 
   std::optional<MessageBytes> message_of(std::size_t row, std::size_t kind) const {
+    if (!table.times[row]) return std::nullopt;
     if (kind == kImu) return imu_of(table, row, turn_scale);
     return kind == kForces ? forces_of(table, row) : joints_of(table, row);
   }
@@ -252,7 +276,10 @@ Result<CsvReader> CsvReader::open(const fs::path& file, BagOpenOptions options) 
   std::error_code ignored;
   auto impl = std::unique_ptr<Impl>(new Impl{file, fs::file_size(csv, ignored), std::move(*table)});
   if (mapping->gyro_unit == CsvTurnUnit::kDegrees) impl->turn_scale = std::numbers::pi / 180.0;
+  const auto untimed = std::ranges::count_if(
+      impl->table.times, [](const std::optional<Time>& time) { return !time.has_value(); });
   CsvReader reader(std::move(impl));
+  reader.set_untimed(static_cast<std::uint64_t>(untimed));
   if (auto counted = reader.count(); !counted) return tl::unexpected(counted.error());
   return reader;
 }
@@ -267,7 +294,7 @@ Result<std::optional<KindSource::Made>> CsvReader::make() {
     auto message = csv.message_of(row, kind);
     if (!message) continue;
     csv.message = std::move(*message);
-    return Made{kind, csv.table.times[row], csv.message.view(), row + 1};
+    return Made{kind, *csv.table.times[row], csv.message.view(), row + 1};
   }
   return std::optional<Made>();
 }

@@ -263,6 +263,7 @@ void warn_of_damage(const BagInfo& info, std::vector<std::string>& out) {
                     "check the network and the receive buffer of the recorder",
                     1e2 * summary.lost_packets));
   }
+  if (summary.untimed_rows > 0) out.push_back(untimed_text(summary));
   if (summary.closed && summary.lost_bytes == 0) return;
   const auto known = format_by_content(info.file);
   const auto format = known ? known : format_by_name(info.file);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recordings/inspection/static_interval.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace aims {
@@ -63,6 +64,7 @@ void StaticIntervalFinder::close_window() {
 void StaticIntervalFinder::add(const ImuSample& sample) {
   if (!sample.angular_velocity.allFinite() || !sample.specific_force.allFinite()) return;
   if (!origin_) origin_ = sample;
+  first_ = std::min(first_.value_or(sample.stamp), sample.stamp);
   const bool full = window_.samples > 0 &&
                     (sample.stamp - window_.begin >= kSecond || sample.stamp < window_.end);
   if (full) close_window();
@@ -76,7 +78,7 @@ std::optional<StaticInterval> StaticIntervalFinder::longest() const {
   if (interval.samples < kMinSamples) return std::nullopt;
   const double period = to_seconds(interval.end - interval.begin) / (interval.samples - 1);
   StaticInterval found;
-  found.begin_s = to_seconds(interval.begin - origin_->stamp);
+  found.begin_s = to_seconds(interval.begin - *first_);
   found.length_s = to_seconds(interval.end - interval.begin);
   found.gyro_bias = origin_->angular_velocity + interval.rate / interval.samples;
   found.force = origin_->specific_force + interval.force / interval.samples;

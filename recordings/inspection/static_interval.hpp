@@ -38,8 +38,9 @@ class StaticIntervalFinder {
   bool is_static(const Sums& window) const;
 
   std::optional<ImuSample> origin_;
-  Sums window_;    ///< of the current second
-  Sums interval_;  ///< of the static windows up to now
+  std::optional<Time> first_;  ///< earliest stamp
+  Sums window_;                ///< of the current second
+  Sums interval_;              ///< of the static windows up to now
   Sums longest_;
 };
 

@@ -21,7 +21,8 @@ struct JointReading {
   Time stamp = 0;
   std::array<double, kJointCount> position{};               ///< [rad]
   std::optional<std::array<double, kJointCount>> velocity;  ///< [rad/s]
-  bool differenced = false;  ///< the rates are differences to the angles before
+  bool differenced = false;               ///< the rates are differences to the angles before
+  std::array<bool, kLegCount> unknown{};  ///< the leg has an angle that is no number
 };
 
 /// Which feet are in contact at an instant.

@@ -16,14 +16,26 @@ namespace aims {
 /// "rear_left_foot". Nothing for other names.
 std::optional<int> leg_of_name(std::string_view name);
 
+/// A name that tells one leg, by a word for it or by a number behind "leg", "foot" or "limb".
+struct NamedLeg {
+  std::string id;          ///< "FL", or the number
+  std::optional<int> leg;  ///< nothing for a number, which tells no place
+  std::string rest;        ///< the name without it: "/contact/state" of "/contact/fl_foot/state"
+};
+std::optional<NamedLeg> named_leg(std::string_view name);
+
 /// The joint within its leg: 0 abduction, 1 hip, 2 knee.
 std::optional<int> joint_of_name(std::string_view name, bool abad = false);
 
 /// Index of each of the twelve joints in a message's arrays.
 using JointOrder = std::array<std::size_t, kJointCount>;
 
+/// Whether twelve names tell the legs, three joints each, and none of them which joint it is.
+bool names_tell_legs_alone(std::span<const std::string_view> recorded);
+
 /// By the configured names if any, else by the recorded names. Where none are recorded, the
-/// configured ones are indices. Nothing when a joint is not found.
+/// configured ones are indices. Where names tell the legs alone, their joints are taken as
+/// abduction, hip and knee. Nothing when a joint is not found.
 std::optional<JointOrder> joint_order(std::span<const std::string_view> recorded,
                                       std::span<const std::string> configured, std::size_t size);
 

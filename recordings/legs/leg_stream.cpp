@@ -180,6 +180,23 @@ bool LegStream::lacks_rates(const JointReading& reading) const {
   return !rates_seen_ && joints_ && joints_->position != reading.position;
 }
 
+/// A leg with an angle that is no number keeps its last angles, and its foot does not count.
+void LegStream::keep_unknown(JointReading& reading, EventCounts& counts) const {
+  constexpr std::size_t kPerLeg = 3;
+  for (std::size_t leg = 0; leg < reading.unknown.size(); ++leg) {
+    for (std::size_t i = kPerLeg * leg; i < kPerLeg * (leg + 1); ++i) {
+      reading.unknown[leg] = reading.unknown[leg] || !std::isfinite(reading.position[i]);
+    }
+    if (!reading.unknown[leg]) continue;
+    for (std::size_t i = kPerLeg * leg; i < kPerLeg * (leg + 1); ++i) {
+      reading.position[i] = joints_ ? joints_->position[i] : 0.0;
+      if (reading.velocity) (*reading.velocity)[i] = 0.0;
+    }
+  }
+  const auto legs = std::ranges::count(reading.unknown, true);
+  if (legs > 0) ++counts["joints_not_finite"];
+}
+
 /// Rates from the angles of the last message, if none are recorded.
 void LegStream::differentiate(JointReading& reading, EventCounts& counts) {
   if (joints_) stamp_before_ = joints_->stamp;
@@ -216,6 +233,9 @@ std::array<bool, kLegCount> LegStream::usable_contacts(const JointReading& joint
                                                        const ContactReading& contacts,
                                                        Time stamp_before) const {
   std::array<bool, kLegCount> contact = contacts.contact;
+  for (std::size_t leg = 0; leg < contact.size(); ++leg) {
+    contact[leg] = contact[leg] && !joints.unknown[leg];
+  }
   if (!joints.differenced) return contact;
   std::array<bool, kLegCount> before{};
   for (const ContactReading& each : recent_contacts_) {
@@ -335,6 +355,7 @@ std::optional<LegOdometrySample> LegStream::finish(LegOdometrySample sample,
 }
 
 std::optional<LegOdometrySample> LegStream::add_joints(JointReading reading, EventCounts& counts) {
+  keep_unknown(reading, counts);
   // No rate is a difference to angles of the same stamp.
   if (joints_ && reading.stamp == joints_->stamp && lacks_rates(reading)) {
     return ++counts["joints_stamp_repeated"], std::nullopt;

@@ -73,6 +73,7 @@ class LegStream {
   void integrate(LegOdometrySample& sample);
   void fill_pose(LegOdometrySample& sample, EventCounts& counts);
   bool lacks_rates(const JointReading& reading) const;
+  void keep_unknown(JointReading& reading, EventCounts& counts) const;
   void differentiate(JointReading& reading, EventCounts& counts);
   bool difference_feet(FeetReading& reading, std::array<bool, kLegCount>& contact,
                        EventCounts& counts);

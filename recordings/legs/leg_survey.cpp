@@ -35,6 +35,7 @@ void LegSurvey::add_joints(const MessageView& message, Time record_time, const S
   if (joint_names_.empty()) {
     const auto names = joint_names_at(message, state);
     joint_names_ = fmt::format("{}", fmt::join(names, ", ")).substr(0, kMaxListed);
+    joints_assumed_ = config_.joint_names.empty() && names_tell_legs_alone(names);
     const auto first = names.empty() ? std::nullopt : leg_of_name(names.front());
     joints_of_one_leg_ = first && std::ranges::all_of(names, [&](std::string_view name) {
                            return leg_of_name(name) == first;
@@ -377,6 +378,13 @@ LegSource LegSurvey::decide_source(const std::string& type, const std::string& f
                                    ReadingNotes& notes) {
   const bool joints = has_joints();
   warn_of_degrees(notes);
+  if (joints_assumed_ && joints) {
+    notes.warn("order of the joints in a leg assumed",
+               fmt::format("{}: the names '{}' tell the legs alone: their joints are taken as "
+                           "abduction, hip and knee (joint_names)",
+                           topics_.joint_states, joint_names_),
+               WarnedSensor::kLegs);
+  }
   if (!topics_.joint_states.empty() && joint_messages_ > 0 && !joints && lack_.empty()) {
     lack_ = has_unnamed_joints() && contact_messages_ == 0 ? lack_of_contacts() : lack_of_joints();
     notes.warn("joints not identified", lack_);

@@ -98,6 +98,7 @@ class LegSurvey {
   int large_angles_ = 0;            ///< messages with an angle that no joint has in rad
   std::string joint_names_;         ///< recorded, of the first message
   bool joints_of_one_leg_ = false;  ///< of the first message, by their names
+  bool joints_assumed_ = false;     ///< the names tell the legs alone
   JointRule joint_rule_;
   LegOrderFinder order_finder_;
   bool feet_unnamed_ = false;

@@ -13,6 +13,9 @@ namespace aims {
 inline constexpr std::string_view kUnitreeLowState = "unitree_go/LowState";
 inline constexpr std::string_view kUnitreeSportState = "unitree_go/SportModeState";
 
+/// Loads of the feet in any unit, of messages that hold a foot each.
+inline constexpr std::string_view kFootLoads = "aims_msgs/FootLoads";
+
 /// Loads of the feet in any unit, of a table of comma-separated values.
 inline constexpr std::string_view kFootForces = "aims_msgs/FootForces";
 
@@ -26,6 +29,7 @@ MessageType odometry_type();       ///< nav_msgs/Odometry
 MessageType transforms_type();     ///< tf2_msgs/TFMessage
 MessageType diagnostics_type();    ///< diagnostic_msgs/DiagnosticArray
 MessageType foot_forces_type();    ///< aims_msgs/FootForces: loads in any unit
+MessageType foot_loads_type();     ///< aims_msgs/FootLoads: likewise, of single feet
 MessageType foot_contacts_type();  ///< aims_msgs/FootContacts: contacts and forces of the feet
 
 /// A usual type as ROS 2 has it, or nothing: what AIMS writes or reads, also of Livox and Unitree.

@@ -19,17 +19,18 @@ const BagConnection* DerivedSource::connection(std::uint32_t id) const {
 }
 
 std::uint32_t DerivedSource::add_topic(std::string topic, const MessageType& type,
-                                       std::uint64_t messages,
-                                       const std::set<std::uint32_t>& from) {
+                                       std::uint64_t messages, const std::set<std::uint32_t>& from,
+                                       std::string joined_from) {
   BagConnection added;
   for (const BagConnection& each : connections_) added.id = std::max(added.id, each.id + 1);
   added.topic = std::move(topic);
   added.type = type.name;
   added.md5 = type.md5;
   added.definition = type.definition;
+  added.joined_from = std::move(joined_from);
   const bool elsewhere = std::ranges::any_of(connections_, [&](const BagConnection& each) {
     return recorded_.contains(each.id) && !from.contains(each.id) && each.type == type.name &&
-           each.messages > 0;
+           each.messages > 0 && !each.is_part;
   });
   added.messages = elsewhere ? 0 : messages;
   const std::uint32_t id = added.id;
@@ -38,6 +39,16 @@ std::uint32_t DerivedSource::add_topic(std::string topic, const MessageType& typ
   wanted_.insert(id);
   seen_.insert(from.begin(), from.end());
   return id;
+}
+
+std::uint64_t DerivedSource::mark_parts(const std::set<std::uint32_t>& ids) {
+  std::uint64_t messages = 0;
+  for (BagConnection& each : connections_) {
+    if (!ids.contains(each.id)) continue;
+    each.is_part = true;
+    messages += each.messages;
+  }
+  return messages;
 }
 
 void DerivedSource::select(std::span<const std::string> topics) {

@@ -31,9 +31,13 @@ class DerivedSource : public MessageSource {
   explicit DerivedSource(std::unique_ptr<MessageSource> source);
 
   /// Adds a topic, made of the messages of `from`; of these many messages. Where the recording has
-  /// a topic of that type elsewhere, this one is only chosen by its name.
+  /// a topic of that type elsewhere, this one is only chosen by its name. `joined_from`: what it is
+  /// made of, in words.
   std::uint32_t add_topic(std::string topic, const MessageType& type, std::uint64_t messages,
-                          const std::set<std::uint32_t>& from);
+                          const std::set<std::uint32_t>& from, std::string joined_from = {});
+
+  /// Marks connections as parts of a topic that is made; yields the number of their messages.
+  std::uint64_t mark_parts(const std::set<std::uint32_t>& ids);
 
   /// Gives a made message.
   void give(std::uint32_t id, Time record_time, MessageBytes bytes);

@@ -23,8 +23,10 @@
 #include "recordings/rosbag2/rosbag2_reader.hpp"
 #include "recordings/rosbag2/rosbag2_writer.hpp"
 #include "recordings/source/compressed_clouds.hpp"
+#include "recordings/source/joined_legs.hpp"
 #include "recordings/source/recorder_clocks.hpp"
 #include "recordings/source/split_imu.hpp"
+#include "recordings/source/spread_batches.hpp"
 #include "recordings/source/stamped_source.hpp"
 
 namespace aims {
@@ -144,6 +146,10 @@ Result<std::unique_ptr<MessageSink>> created(const fs::path& file, BagWriterOpti
 
 }  // namespace
 
+std::string untimed_text(const BagSummary& summary) {
+  return fmt::format("{} rows of the table have no time: they are left out", summary.untimed_rows);
+}
+
 std::string_view foreign_content(std::string_view start) {
   constexpr std::size_t kTarSign = 257;
   if (start.size() > kTarSign && start.substr(kTarSign).starts_with("ustar")) {
@@ -220,7 +226,9 @@ Result<std::unique_ptr<MessageSource>> open_sensor_recording(const fs::path& fil
   if (!decoded && !without_lidar) return tl::unexpected(decoded.error());
   const auto unpacked = unpack_clouds(*source);
   if (!unpacked && !without_lidar) return tl::unexpected(unpacked.error());
+  spread_batches(*source);
   join_split_imu(*source);
+  join_single_legs(*source);
   return source;
 }
 

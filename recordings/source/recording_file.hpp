@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "core/error.hpp"
@@ -29,6 +30,9 @@ std::optional<RecordingFormat> format_by_content(const std::filesystem::path& fi
 /// The format that a name's extension stands for: ".bag", ".mcap", ".db3", ".pcap" or
 /// ".yaml"; else nothing.
 std::optional<RecordingFormat> format_by_name(const std::filesystem::path& file);
+
+/// Says how many rows of a table have no time.
+std::string untimed_text(const BagSummary& summary);
 
 /// Why such a beginning of a file is that of no recording or trajectory: a page of a download, a
 /// pointer of Git LFS, an archive; else empty.

@@ -36,8 +36,8 @@ struct HalfTopic {
     const auto x = view->number(path + ".x"), y = view->number(path + ".y"),
                z = view->number(path + ".z");
     if (!x || !y || !z) return std::nullopt;
-    const Time stamp = header_stamp(*view, message.record_time);
-    return Sample{stamp > 0 ? stamp : message.record_time, {*x, *y, *z}};
+    const Time stamp = header_stamp(*view, message.taken());
+    return Sample{stamp > 0 ? stamp : message.taken(), {*x, *y, *z}};
   }
 
   std::string frame(const BagMessage& message) const {

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -12,6 +14,7 @@
 
 #include "recordings/frames/configured_extrinsic.hpp"
 #include "recordings/messages/message_types.hpp"
+#include "recordings/source/recording_file.hpp"
 #include "recordings/stream/recorded_legs.hpp"
 #include "recordings/stream/recording_survey.hpp"
 #include "recordings/stream/single_legs.hpp"
@@ -204,6 +207,45 @@ void warn_of_legs(MessageSource& bag, RecordingSetup& setup) {
        WarnedSensor::kLegs});
 }
 
+/// Of samples that were recorded in batches.
+void warn_of_batches(MessageSource& bag, RecordingSetup& setup) {
+  constexpr std::size_t kMostNamed = 4;
+  const TopicsConfig& topics = setup.topics;
+  std::map<bool, std::vector<std::string>> found;  // of the IMU and of the legs
+  std::map<bool, double> samples;
+  for (const BagConnection& each : bag.connections()) {
+    const auto is_of = [&each](const std::string& topic) { return topic == each.topic; };
+    const bool legs = is_of(topics.leg_odometry) || is_of(topics.joint_states) ||
+                      is_of(topics.contacts) || each.is_part;
+    const bool imu = is_of(topics.imu) || topics.imu == each.topic + "/imu";
+    if (each.batch == 0.0 || (!legs && !imu)) continue;
+    found[imu].push_back(each.topic);
+    samples[imu] = std::max(samples[imu], each.batch);
+  }
+  for (auto& [imu, names] : found) {
+    const std::size_t all = names.size();
+    names.resize(std::min(all, kMostNamed));
+    const std::string more =
+        all > names.size() ? fmt::format(" and {} more", all - names.size()) : "";
+    setup.warnings.push_back(
+        {fmt::format("times of the {} spread over batches", imu ? "IMU" : "legs"),
+         fmt::format("{}{}: no stamps, and record times come in batches of {:.3g} samples: they "
+                     "are spread evenly over the time since the batch before; set the stamps in "
+                     "the driver",
+                     fmt::join(names, ", "), more, samples[imu]),
+         imu ? WarnedSensor::kAny : WarnedSensor::kLegs});
+  }
+}
+
+/// Of topics that are joined of others.
+void note_joined(MessageSource& bag, RecordingSetup& setup) {
+  for (const BagConnection& each : bag.connections()) {
+    if (each.joined_from.empty()) continue;
+    if (each.topic != setup.topics.joint_states && each.topic != setup.topics.contacts) continue;
+    setup.notes.push_back(fmt::format("{}: joined from {}", each.topic, each.joined_from));
+  }
+}
+
 /// Of legs that are recorded, each in messages of its own.
 void warn_of_single_legs(MessageSource& bag, RecordingSetup& setup) {
   if (setup.has_legs) return;
@@ -221,6 +263,12 @@ void warn_of_packets(const BagSummary& summary, std::vector<ReadingWarning>& war
                                   "azimuths: its scans have holes",
                                   1e2 * summary.lost_packets),
                       WarnedSensor::kLidar});
+}
+
+/// Of rows of a table that are left out.
+void warn_of_rows(const BagSummary& summary, std::vector<ReadingWarning>& warnings) {
+  if (summary.untimed_rows == 0) return;
+  warnings.push_back({"rows of the table have no time", untimed_text(summary)});
 }
 
 /// Of files whose recorders had different clocks.
@@ -264,6 +312,9 @@ Result<RecordingPlan> plan_recording(MessageSource& bag, const RecordingConfig& 
   plan->start = survey.start(bag.summary());
   warn_of_recorders(bag.summary(), plan->setup.warnings);
   warn_of_packets(bag.summary(), plan->setup.warnings);
+  warn_of_rows(bag.summary(), plan->setup.warnings);
+  warn_of_batches(bag, plan->setup);
+  note_joined(bag, plan->setup);
   warn_of_single_legs(bag, plan->setup);
   if (plan->setup.has_joints && !legs_are_known) warn_of_legs(bag, plan->setup);
   return plan;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -46,6 +47,7 @@ struct RecordingReader::Impl {
   struct Held {
     const BagConnection* connection = nullptr;
     std::vector<std::byte> data;
+    std::optional<Time> sampled;
   };
 
   Impl(std::unique_ptr<MessageSource> source, RecordingChannels chosen, RecordingPlan decided,
@@ -63,6 +65,7 @@ struct RecordingReader::Impl {
   }
 
   Result<void> fetch();
+  Time taken() const { return sampled.value_or(record_time); }  ///< in place of a stamp
   bool hold(const BagMessage& message, const Channel& channel, const MessageView& view);
   bool is_unset(const BagMessage& message, const Channel& channel, const MessageView& view) const;
   std::optional<Duration> lateness(const BagMessage& message, std::size_t role,
@@ -106,8 +109,9 @@ struct RecordingReader::Impl {
   std::multimap<Time, Held> held;               ///< by the time at which they are due
   std::size_t held_bytes = 0;
   bool started = false;
-  Time until = 0;        ///< record time up to which messages have been delivered
-  Time record_time = 0;  ///< of the current message
+  Time until = 0;               ///< record time up to which messages have been delivered
+  Time record_time = 0;         ///< of the current message
+  std::optional<Time> sampled;  ///< likewise; where its record time is that of a batch
   Duration position = 0;
   std::array<std::optional<Time>, kRoleCount> last_stamps;
   std::array<std::string, kRoleCount> frames;  ///< of the first messages
@@ -130,7 +134,7 @@ Result<void> RecordingReader::Impl::fetch() {
 /// The stamp of the delivery.
 Time RecordingReader::Impl::stamp_of(Role role, Time stamp, double delay) const {
   const bool recorded = plan.stamped_by_record[static_cast<std::size_t>(role)];
-  return (recorded ? record_time : stamp - leapt.value_or(0)) - from_seconds(delay);
+  return (recorded ? taken() : stamp - leapt.value_or(0)) - from_seconds(delay);
 }
 
 void RecordingReader::Impl::deliver(Role role, Measurement measurement, Time stamp,
@@ -192,7 +196,7 @@ void RecordingReader::Impl::take_cloud(const MessageView& view, std::vector<Deli
 }
 
 void RecordingReader::Impl::take_imu(const MessageView& view, std::vector<Delivery>& out) {
-  const auto recorded = imu_at(view, record_time, counts);
+  const auto recorded = imu_at(view, taken(), counts);
   if (!recorded) return malformed(Role::kImu);
   ImuSample sample = *recorded;
   sample.stamp = stamp_of(Role::kImu, recorded->stamp, config.imu_delay);
@@ -210,7 +214,7 @@ void RecordingReader::Impl::take_legs(const Channel& channel, const MessageView&
   if (plan.legs.source == LegSource::kFeet) return take_feet(channel, view, out);
   if (plan.legs.source == LegSource::kNone) return;
   const bool twist = plan.legs.source == LegSource::kTwist;
-  auto sample = twist ? twist_at(view, record_time) : odometry_at(view, counts);
+  auto sample = twist ? twist_at(view, taken()) : odometry_at(view, counts);
   if (!sample) return malformed(Role::kLegs);
   sample->stamp = stamp_of(Role::kLegs, sample->stamp, config.leg_delay);
   deliver(twist ? legs.add_twist(*sample) : legs.add_odometry(*sample, counts), out);
@@ -218,14 +222,14 @@ void RecordingReader::Impl::take_legs(const Channel& channel, const MessageView&
 
 void RecordingReader::Impl::take_feet(const Channel& channel, const MessageView& view,
                                       std::vector<Delivery>& out) {
-  auto feet = channel.state == nullptr ? std::nullopt : feet_at(view, record_time, *channel.state);
+  auto feet = channel.state == nullptr ? std::nullopt : feet_at(view, taken(), *channel.state);
   if (!feet) return malformed(Role::kLegs);
   feet->stamp = stamp_of(Role::kLegs, feet->stamp, config.leg_delay);
   deliver(legs.add_feet(*feet, counts), out);
 }
 
 void RecordingReader::Impl::take_joints(const MessageView& view, std::vector<Delivery>& out) {
-  auto joints = joints_at(view, record_time, plan.joints);
+  auto joints = joints_at(view, taken(), plan.joints);
   if (!joints) return malformed(Role::kJoints);
   joints->stamp = stamp_of(Role::kJoints, joints->stamp, config.leg_delay);
   deliver(legs.add_joints(std::move(*joints), counts), out);
@@ -236,9 +240,11 @@ void RecordingReader::Impl::take_contacts(const MessageView& view, std::vector<D
   const auto loads = loads_at(view, plan.contacts);
   if (!loads) return malformed(Role::kContacts);
   // Without a stamp they are as old as joints that arrive with them.
-  const auto joints = plan.latency[static_cast<std::size_t>(Role::kJoints)];
-  const Time stamp =
-      recorded_stamp(view) ? header_stamp(view, record_time) : record_time - joints.value_or(0);
+  const Duration age =
+      sampled ? 0 : plan.latency[static_cast<std::size_t>(Role::kJoints)].value_or(0);
+  const Time stamp = recorded_stamp(view) ? header_stamp(view, taken()) : taken() - age;
+  const auto is_number = [](double load) { return std::isfinite(load); };
+  if (!std::ranges::all_of(*loads, is_number)) ++counts["foot_loads_not_finite"];
   if (contact_detector.contradicts_sign(*loads)) ++counts["foot_loads_of_other_sign"];
   const ContactReading contacts = {stamp_of(Role::kContacts, stamp, config.leg_delay),
                                    contact_detector.detect(*loads), forces_at(view, plan.contacts)};
@@ -269,7 +275,7 @@ bool RecordingReader::Impl::is_repeated(const Channel& channel, const MessageVie
   if (repeats.empty()) return false;
   const auto filter = repeats.find(channel.connection->topic);
   if (filter == repeats.end()) return false;
-  return filter->second.repeats(header_stamp(view, record_time), sample_numbers(view, channel));
+  return filter->second.repeats(header_stamp(view, taken()), sample_numbers(view, channel));
 }
 
 /// Counts messages of another frame than the first one of their topic, whose place they have.
@@ -364,7 +370,8 @@ bool RecordingReader::Impl::hold(const BagMessage& message, const Channel& chann
   const Time at = due(message, channel, view);
   if (at <= message.record_time || held_bytes + message.data.size() > kMaxHeldBytes) return false;
   held_bytes += message.data.size();
-  held.emplace(at, Held{message.connection, {message.data.begin(), message.data.end()}});
+  held.emplace(
+      at, Held{message.connection, {message.data.begin(), message.data.end()}, message.sampled});
   return true;
 }
 
@@ -374,7 +381,9 @@ void RecordingReader::Impl::release(Time due, std::vector<Delivery>& out) {
   while (!held.empty() && held.begin()->first <= due) {
     const auto first = held.extract(held.begin());
     record_time = first.key();
-    const BagMessage message = {first.mapped().connection, first.key(), first.mapped().data, 0};
+    const Held& each = first.mapped();
+    const BagMessage message = {each.connection, first.key(), each.data, 0, each.sampled};
+    sampled = message.sampled;
     held_bytes -= message.data.size();
     const Channel* channel = channels.find(message);
     const auto view = channel->decoder.decode(message.data);
@@ -393,6 +402,7 @@ void RecordingReader::Impl::receive(const BagMessage& given, std::vector<Deliver
   if (view && !unset && first_role(*channel) == static_cast<std::size_t>(Role::kTruth)) {
     // For scoring alone: it moves no arrival of a measurement.
     const Time last = std::exchange(record_time, message.record_time);
+    sampled = message.sampled;
     take(*channel, *view, out);
     record_time = last;
     return;
@@ -401,6 +411,7 @@ void RecordingReader::Impl::receive(const BagMessage& given, std::vector<Deliver
   if (view && !unset) message.record_time = arrival(message, *channel, *view);
   release(message.record_time, out);
   record_time = message.record_time;
+  sampled = message.sampled;
   position = std::max(position, record_time - plan.start);
   if (!view) {
     for (std::size_t i = 0; i < kRoleCount; ++i) {

@@ -43,9 +43,10 @@ void adopt_rate(std::optional<double> measured_hz, const char* sensor, double& n
 
 }  // namespace
 
-void RecordingSurvey::note_times(Role role, const MessageView& view, Time record_time,
+void RecordingSurvey::note_times(Role role, const MessageView& view, const BagMessage& message,
                                  bool is_new) {
   Seen& each = seen(role);
+  const Time record_time = message.taken();
   if (record_time > kSetRecordTime) {
     first_set_ = std::min(first_set_.value_or(record_time), record_time);
   }
@@ -55,6 +56,7 @@ void RecordingSurvey::note_times(Role role, const MessageView& view, Time record
   each.stamps.push_back(stamp);
   each.latencies.push_back(record_time - stamp);
   each.is_new.push_back(is_new);
+  each.delays.push_back(message.record_time - message.sampled.value_or(stamp));
   if (each.frame.empty()) each.frame = view.text("header.frame_id").value_or("");
   if (each.child_frame.empty()) each.child_frame = view.text("child_frame_id").value_or("");
 }
@@ -65,11 +67,11 @@ void RecordingSurvey::add(const BagMessage& message, const Channel& channel) {
     if (channel.is(Role::kLidar) && cloud_error_.empty()) cloud_error_ = view.error().message;
     return;
   }
-  const bool is_new = repeats_[channel.connection->topic].add(
-      header_stamp(*view, message.record_time), sample_numbers(*view, channel));
+  const bool is_new = repeats_[channel.connection->topic].add(header_stamp(*view, message.taken()),
+                                                              sample_numbers(*view, channel));
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     if (!channel.serves[i]) continue;
-    note_times(static_cast<Role>(i), *view, message.record_time, is_new);
+    note_times(static_cast<Role>(i), *view, message, is_new);
     seen_[i].type = channel.connection->type;
     seen_[i].state = channel.state;
   }
@@ -77,7 +79,7 @@ void RecordingSurvey::add(const BagMessage& message, const Channel& channel) {
   if (channel.is(Role::kImu)) add_imu(*view);
   const StateLayout* state = channel.state;
   if (channel.is(Role::kLegs) && state != nullptr) legs_.add_feet(*view, *state);
-  if (channel.is(Role::kJoints)) legs_.add_joints(*view, message.record_time, state);
+  if (channel.is(Role::kJoints)) legs_.add_joints(*view, message.taken(), state);
   if (channel.is(Role::kContacts)) {
     legs_.add_contacts(*view, channel.connection->type, channel.decoder, state);
   }
@@ -94,7 +96,7 @@ void RecordingSurvey::add_motion(const BagMessage& message, const Channel& chann
     }
   }
   if (channel.is(Role::kContacts)) legs_.add_load_motion(*view);
-  if (channel.is(Role::kJoints)) legs_.add_joint_motion(*view, message.record_time);
+  if (channel.is(Role::kJoints)) legs_.add_joint_motion(*view, message.taken());
 }
 
 void RecordingSurvey::add_cloud(const MessageView& view, Time record_time) {
@@ -197,13 +199,13 @@ void RecordingSurvey::decide_force_unit(RecordingPlan& plan) {
 }
 
 /// By the times that serve as stamps.
-std::optional<double> RecordingSurvey::imu_rate(const RecordingPlan& plan) const {
-  const Seen& imu = seen(Role::kImu);
-  std::vector<Time> times = imu.stamps;
-  if (!plan.stamped_by_record[static_cast<std::size_t>(Role::kImu)]) {
+std::optional<double> RecordingSurvey::rate_of(Role role, const RecordingPlan& plan) const {
+  const Seen& each = seen(role);
+  std::vector<Time> times = each.stamps;
+  if (!plan.stamped_by_record[static_cast<std::size_t>(role)]) {
     return sample_rate(std::move(times));
   }
-  for (std::size_t i = 0; i < times.size(); ++i) times[i] += imu.latencies[i];
+  for (std::size_t i = 0; i < times.size(); ++i) times[i] += each.latencies[i];
   const auto in_batches = batched_rate(times);
   return in_batches ? in_batches : sample_rate(std::move(times));
 }
@@ -225,7 +227,7 @@ void RecordingSurvey::warn_of_rate(double rate) {
 
 void RecordingSurvey::decide_imu(RecordingPlan& plan) {
   ReadingNotes& notes = notes_;
-  plan.setup.imu_rate_hz = imu_rate(plan);
+  plan.setup.imu_rate_hz = rate_of(Role::kImu, plan);
   plan.setup.has_orientation = oriented_;
   adopt_rate(plan.setup.imu_rate_hz, "IMU", plan.setup.rig.imu_rate_hz, notes);
   if (const auto rate = plan.setup.imu_rate_hz) warn_of_rate(*rate);
@@ -375,7 +377,7 @@ void RecordingSurvey::decide_legs(RecordingPlan& plan) {
   stream.foot_model = config_.foot_model;
   stream.source = legs_.decide_source(legs.type, legs.frame, notes_);
   const bool kinematic = stream.source == LegSource::kKinematics;
-  plan.setup.leg_rate_hz = sample_rate(kinematic ? seen(Role::kJoints).stamps : legs.stamps);
+  plan.setup.leg_rate_hz = rate_of(kinematic ? Role::kJoints : Role::kLegs, plan);
   plan.joints = legs_.joint_rule();
   plan.setup.leg_lack = legs_.lack();
   plan.setup.has_legs = stream.source != LegSource::kNone;
@@ -385,7 +387,10 @@ void RecordingSurvey::decide_legs(RecordingPlan& plan) {
   const double rate = plan.setup.leg_rate_hz.value_or(100.0);
   stream.half_period = from_seconds(std::clamp(0.5 / rate, 1e-9, 0.5));
   const Duration late = contact_lateness(plan);
-  if (late > stream.half_period) stream.contact_wait = 2 * late;
+  const Duration burst = std::max(burst_of(Role::kJoints), burst_of(Role::kContacts));
+  for (const Duration each : {late, burst}) {
+    if (each > stream.half_period) stream.contact_wait = std::max(stream.contact_wait, 2 * each);
+  }
 }
 
 std::string RecordingSurvey::imu_frame() const {

@@ -55,6 +55,7 @@ class RecordingSurvey {
   struct Seen {
     std::vector<Time> stamps;
     std::vector<Duration> latencies;  ///< record time minus stamp
+    std::vector<Duration> delays;     ///< record time minus when it was taken
     std::vector<bool> is_new;         ///< not the sample before under a new stamp
     std::string frame;
     std::string child_frame;
@@ -65,7 +66,7 @@ class RecordingSurvey {
 
   Seen& seen(Role role) { return seen_[static_cast<std::size_t>(role)]; }
   const Seen& seen(Role role) const { return seen_[static_cast<std::size_t>(role)]; }
-  void note_times(Role role, const MessageView& view, Time record_time, bool is_new);
+  void note_times(Role role, const MessageView& view, const BagMessage& message, bool is_new);
   void add_cloud(const MessageView& view, Time record_time);
   void add_imu(const MessageView& view);
 
@@ -84,6 +85,7 @@ class RecordingSurvey {
   static std::optional<Leap> leap_of(const Seen& each);
   bool leaps_alone(Role role, const Leap& leap) const;
   std::optional<Leap> decide_leap(Role role, RecordingPlan& plan);
+  Duration burst_of(Role role) const;
   Duration contact_lateness(const RecordingPlan& plan) const;
   static Duration latency_of(const Seen& each, const std::optional<ClockStep>& step);
   static void keep_new(Seen& each);
@@ -108,7 +110,7 @@ class RecordingSurvey {
   bool changes(Eigen::Vector3d ImuSample::*part) const;
   void warn_of_force(double force);
   void decide_force_unit(RecordingPlan& plan);
-  std::optional<double> imu_rate(const RecordingPlan& plan) const;
+  std::optional<double> rate_of(Role role, const RecordingPlan& plan) const;
   void warn_of_rate(double rate);
   void warn_of_gyro(const RecordingPlan& plan);
   std::optional<double> force_at_rest(const RecordingPlan& plan) const;

@@ -6,37 +6,20 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <map>
 #include <string_view>
 #include <vector>
 
 #include "recordings/legs/leg_names.hpp"
 #include "recordings/messages/robot_states.hpp"
+#include "recordings/source/leg_topics.hpp"
 
 namespace aims {
 namespace {
 
 constexpr std::string_view kExpected =
-    "expected all legs in one message: sensor_msgs/JointState of twelve joints, and contacts with "
-    "a number for each foot; join them before (docs: Legs without odometry)";
-
-bool holds_any(std::string_view text, std::span<const std::string_view> parts) {
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::ranges::any_of(
-      parts, [&](std::string_view part) { return lower.find(part) != std::string::npos; });
-}
-
-/// Whether a topic may be of joints or feet, by its type and name.
-bool is_of_legs(const BagConnection& connection) {
-  constexpr auto kWords = std::to_array<std::string_view>(
-      {"joint", "contact", "foot", "feet", "force", "leg", "wrench", "motor"});
-  if (connection.type.starts_with("sensor_msgs/"))
-    return connection.type == "sensor_msgs/JointState";
-  return holds_any(connection.topic, kWords) || holds_any(connection.type, kWords);
-}
+    "they are not joined: that needs a file with all four legs, each with its joints or the load "
+    "of its foot; else put all legs in one message (docs: Legs in messages of their own)";
 
 /// Whether the messages say themselves of which leg they are.
 bool names_its_leg(const BagConnection& connection) {
@@ -45,7 +28,9 @@ bool names_its_leg(const BagConnection& connection) {
   if (robot_state_of(connection.type, connection.definition) != nullptr) return false;
   // Of the message itself: the types that it uses follow behind a line of equals signs.
   const std::string own = connection.definition.substr(0, connection.definition.find("\n==="));
-  return holds_any(own + "\n", kFields);
+  return std::ranges::any_of(kFields, [&own](std::string_view field) {
+    return (own + "\n").find(field) != std::string::npos;
+  });
 }
 
 }  // namespace
@@ -53,12 +38,12 @@ bool names_its_leg(const BagConnection& connection) {
 std::string single_legs_text(std::span<const BagConnection> connections) {
   std::map<std::string, std::map<int, std::string>> topics;  // by type, then by leg
   for (const BagConnection& each : connections) {
-    if (each.messages == 0) continue;
+    if (each.messages == 0 || each.is_part) continue;
     if (names_its_leg(each)) {
       return fmt::format("{} ({}) holds one leg in each message: {}", each.topic, each.type,
                          kExpected);
     }
-    const auto leg = is_of_legs(each) ? leg_of_name(each.topic) : std::nullopt;
+    const auto leg = may_be_of_legs(each) ? leg_of_name(each.topic) : std::nullopt;
     if (leg) topics[each.type].emplace(*leg, each.topic);
   }
   for (const auto& [type, of_type] : topics) {

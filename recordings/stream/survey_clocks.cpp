@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <ranges>
 #include <set>
 #include <span>
 #include <utility>
@@ -221,6 +220,16 @@ std::optional<RecordingSurvey::Leap> RecordingSurvey::decide_leap(Role role, Rec
   return leap;
 }
 
+/// By how much longer the first message of a burst waits to be recorded than the last one.
+Duration RecordingSurvey::burst_of(Role role) const {
+  std::vector<Duration> delays = seen(role).delays;
+  if (delays.size() < kFirst) return 0;
+  std::ranges::sort(delays);
+  const std::size_t few = delays.size() / 20;
+  const Duration burst = delays[delays.size() - 1 - few] - delays[few];
+  return burst < kSecond ? burst : 0;
+}
+
 /// By how much contacts arrive later than joints of the same stamp; negative: earlier.
 Duration RecordingSurvey::contact_lateness(const RecordingPlan& plan) const {
   const auto& joints = plan.latency[static_cast<std::size_t>(Role::kJoints)];
@@ -295,18 +304,20 @@ void RecordingSurvey::note_silence(Role role, const std::string& topic) {
 /// Of a topic whose stamps do not serve.
 void RecordingSurvey::note_record_times(Role role, const std::string& topic) {
   const std::vector<Time>& stamps = seen(role).stamps;
-  if (std::ranges::count(stamps, 0) == std::ssize(stamps)) {
-    return notes_.push_back(fmt::format("{}: stamps are all zero, record times are used", topic));
-  }
+  const bool zero = std::ranges::count(stamps, 0) == std::ssize(stamps);
   std::vector<Time> recorded = stamps;
   for (std::size_t i = 0; i < recorded.size(); ++i) recorded[i] += seen(role).latencies[i];
   const bool batched = batched_rate(std::move(recorded)).has_value();
-  notes_.warn(
-      fmt::format("stamps of {} do not advance", topic),
-      fmt::format("{}: stamps do not advance from message to message (a clock that stands "
-                  "still, or whole seconds): record times are used{}",
-                  topic,
-                  batched ? ", which come in batches: times within a batch are not known" : ""));
+  const std::string what =
+      zero ? "stamps are all zero, "
+           : "stamps do not advance from message to message (a clock that stands still, or whole "
+             "seconds): ";
+  const std::string text = fmt::format("{}: {}record times are used", topic, what);
+  if (zero && !batched) return notes_.push_back(text);
+  notes_.warn(fmt::format("stamps of {} do not advance", topic),
+              text + (batched ? ", which come in batches of no steady rate: times within a batch "
+                                "are not known"
+                              : ""));
 }
 
 /// Clocks: stamps that were never set, and sensors with different clocks.
@@ -418,7 +429,11 @@ bool RecordingSurvey::warn_of_imu_clock(const std::map<Role, Duration>& behind,
   std::set<std::string> others;
   for (const auto& [role, each] : behind) others.insert(topic_of(topics_, role));
   if (reference != topics_.imu || others.size() < 2) return false;
-  const auto [least, most] = std::ranges::minmax(behind | std::views::values);
+  Duration least = behind.begin()->second, most = least;
+  for (const auto& [role, each] : behind) {
+    least = std::min(least, each);
+    most = std::max(most, each);
+  }
   const Duration middle = least + (most - least) / 2;
   if (std::abs(middle) < kMaxLatencyDifference || most - least > kMaxLatencyDifference)
     return false;

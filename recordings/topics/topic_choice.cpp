@@ -125,10 +125,13 @@ class Chooser {
   /// The default topic, or the only suitable one, or nothing; several are an error.
   Result<std::string> found(const Request& request, std::string_view default_topic) const {
     const BagConnection* known = find(default_topic);
-    if (known != nullptr && request.is_suitable(*known)) return std::string(default_topic);
+    const auto fits = [&request](const BagConnection& each) {
+      return request.is_suitable(each) && !each.is_part;
+    };
+    if (known != nullptr && fits(*known)) return std::string(default_topic);
     std::set<std::string> topics;
     for (const BagConnection& each : connections_) {
-      if (request.is_suitable(each) && each.messages > 0) topics.insert(each.topic);
+      if (fits(each) && each.messages > 0) topics.insert(each.topic);
     }
     if (topics.empty()) return std::string();
     if (topics.size() == 1) return *topics.begin();

@@ -34,6 +34,7 @@ TEST(FuzzCorpus, Messages) { replay("message", fuzz_message); }
 TEST(FuzzCorpus, MessagesOfRos2) { replay("cdr", fuzz_cdr); }
 TEST(FuzzCorpus, Recordings) { replay("recording", fuzz_recording); }
 TEST(FuzzCorpus, StatesOfRobots) { replay("states", fuzz_states); }
+TEST(FuzzCorpus, SingleLegs) { replay("legs", fuzz_legs); }
 TEST(FuzzCorpus, PacketsInBags) { replay("packets", fuzz_packets); }
 TEST(FuzzCorpus, MergedBags) { replay("merged", fuzz_merged); }
 TEST(FuzzCorpus, Yaml) { replay("yaml", fuzz_yaml); }

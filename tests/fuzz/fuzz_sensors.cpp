@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sound messages of robots and LiDARs with some of their bytes changed, left out or cut off.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -140,6 +141,34 @@ MessageBytes message_of(const Driver& driver, Time time, std::vector<std::byte> 
   return out;
 }
 
+constexpr std::array<const char*, kLegCount> kLegTopics = {"fl", "fr", "rl", "rr"};
+
+/// The joints of a leg as sensor_msgs/JointState.
+MessageBytes leg_joints(int leg, Time stamp, const test::RobotSample& sample) {
+  MessageBytes out;
+  test::put_header(out, stamp, "base");
+  out.length(3);
+  for (const char* joint : {"_hip", "_thigh", "_calf"}) {
+    out.text(std::string(kLegTopics[static_cast<std::size_t>(leg)]) + joint);
+  }
+  for (int times = 0; times < 3; ++times) {
+    out.array(std::vector<double>(&sample.angles[3 * leg], &sample.angles[3 * leg] + 3));
+  }
+  return out;
+}
+
+/// The same with the load of its foot as a message of its own, which names its leg.
+MessageBytes named_leg_state(int leg, Time stamp, const test::RobotSample& sample) {
+  MessageBytes out;
+  test::put_header(out, stamp, "base");
+  out.text(kLegTopics[static_cast<std::size_t>(leg)]);
+  for (int times = 0; times < 2; ++times) {
+    for (int joint = 0; joint < 3; ++joint) out.put(sample.angles[3 * leg + joint]);
+  }
+  out.put(sample.contact[static_cast<std::size_t>(leg)] ? 50.0 : 0.0);
+  return out;
+}
+
 RecordingConfig without_lidar() {
   RecordingConfig config;
   config.topics.lidar = "none";
@@ -164,6 +193,52 @@ void fuzz_states(std::span<const std::uint8_t> input) {
   const auto topic = bag.add("/state", robot.type);
   for (std::size_t i = 0; i < messages.size(); ++i) {
     bag.write(topic, kSecond + static_cast<Time>(i) * 20 * kMillisecond, messages[i]);
+  }
+  touch_recording(MemoryFile(bag.bytes()).path(), false, without_lidar());
+}
+
+void fuzz_legs(std::span<const std::uint8_t> input) {
+  ByteCursor cursor(std::as_bytes(input));
+  const auto first = cursor.number<std::uint8_t>();
+  if (!first) return;
+  const bool one_topic = (*first & 1U) != 0, stamped = (*first & 2U) != 0;
+  const int batch = 1 + *first / 4 % 8;
+  MemoryBag bag;
+  add_imu(bag);
+  const MessageType state = {"my_msgs/Leg", "",
+                             "Header header\nstring leg\nfloat64[3] q\nfloat64[3] dq\n"
+                             "float64 load\n" +
+                                 test::used_header()};
+  std::vector<std::uint32_t> topics;
+  for (const char* leg : kLegTopics) {
+    if (one_topic && !topics.empty()) {
+      topics.push_back(topics.front());
+    } else {
+      topics.push_back(one_topic ? bag.add("/legs", state)
+                                 : bag.add(std::string("/") + leg + "/joints", joint_state_type()));
+    }
+  }
+  const auto contacts = bag.add("/foot_contacts", foot_contacts_type());
+  Messages messages;
+  for (int i = 0; i < 100; ++i) {
+    const test::RobotSample sample = trotting(i);
+    for (int leg = 0; leg < kLegCount; ++leg) {
+      const Time stamp = stamped ? sample.stamp : 0;
+      const auto bytes =
+          one_topic ? named_leg_state(leg, stamp, sample) : leg_joints(leg, stamp, sample);
+      messages.emplace_back(bytes.view().begin(), bytes.view().end());
+    }
+  }
+  change(messages, cursor);
+  for (std::size_t i = 0; i < messages.size(); ++i) {
+    const int number = static_cast<int>(i) / kLegCount;
+    const Time time = trotting(number / batch * batch + batch).stamp;
+    bag.write(topics[i % kLegCount], time, messages[i]);
+    LegOdometrySample feet;
+    feet.contact = trotting(number).contact;
+    if (!one_topic && i % kLegCount == 0) {
+      bag.write(contacts, time, foot_contacts_message({0, time, "base"}, feet).view());
+    }
   }
   touch_recording(MemoryFile(bag.bytes()).path(), false, without_lidar());
 }

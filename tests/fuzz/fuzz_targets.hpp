@@ -26,6 +26,7 @@ void fuzz_cdr(std::span<const std::uint8_t> input);
 void fuzz_recording(std::span<const std::uint8_t> input);
 /// Sound messages of a robot's state, and of the packets of a LiDAR, with bytes changed.
 void fuzz_states(std::span<const std::uint8_t> input);
+void fuzz_legs(std::span<const std::uint8_t> input);  ///< of single legs, also in batches
 void fuzz_packets(std::span<const std::uint8_t> input);
 /// Messages of three bags as one recording: in order of time, the same when read again.
 void fuzz_merged(std::span<const std::uint8_t> input);

@@ -8,7 +8,7 @@ source=$(cd "$(dirname "$0")/../.." && pwd)
 seconds=${1:-300}
 build=${2:-$source/build/fuzz}
 [ $# -ge 2 ] && shift 2 || set --
-[ $# -gt 0 ] || set -- bag mcap db3 pcap ouster message cdr recording states packets merged yaml tables json
+[ $# -gt 0 ] || set -- bag mcap db3 pcap ouster message cdr recording states legs packets merged yaml tables json
 
 cmake -S "$source" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo \
   -DCMAKE_CXX_COMPILER=clang++ -DAIMS_FUZZ=ON -DAIMS_BENCH=OFF -DAIMS_PAGE=OFF \

@@ -167,6 +167,23 @@ TEST_F(CsvTable, TimesMayBeDates) {
   EXPECT_EQ(reader->summary().end, reader->summary().start + kSecond / 100);
 }
 
+TEST_F(CsvTable, FewRowsWithoutATimeAreLeftOutAndCounted) {
+  const std::string header = "time,wx,wy,wz,ax,ay,az\n", cells = ",0,0,0,0,0,9.8\n";
+  for (const char* missing : {"", " ", "nan", "NaN", "inf"}) {
+    std::string table = header + missing + cells;  // also the first row
+    for (int i = 1; i < 20; ++i) table += (i == 7 ? missing : std::to_string(i)) + cells;
+    auto reader = open(kImu, table);
+    ASSERT_TRUE(reader) << missing << reader.error().message;
+    EXPECT_EQ(reader->summary().untimed_rows, 2U) << missing;
+    EXPECT_EQ(reader->summary().messages, 18U) << missing;
+    EXPECT_EQ(reader->summary().start, kSecond) << missing;
+    EXPECT_EQ(reader->summary().end, 19 * kSecond) << missing;
+    EXPECT_NE(refusal(kImu, table + missing + cells).find("t.csv:2: time: expected a time, found"),
+              std::string::npos)
+        << missing;
+  }
+}
+
 TEST_F(CsvTable, RecoveryLeavesAnIncompleteLastRowOut) {
   const std::string table = "time,wx,wy,wz,ax,ay,az\n1,0,0,0,0,0,9.8\n2,0,0,0,0";
   EXPECT_EQ(refusal(kImu, table),
@@ -186,9 +203,11 @@ TEST_F(CsvTable, RefusesWhatIsMalformed) {
   EXPECT_EQ(refusal(kImu, header + "-1,0,0,0,0,0,9.8\n"),
             "t.csv:2: time: expected a time >= 0 ns, found '-1'");
   EXPECT_EQ(refusal(kImu, header + row + "nan,0,0,0,0,0,9.8\n"),
-            "t.csv:3: time: expected a time >= 1000000000 ns, found NaN ('nan')");
+            "t.csv:3: time: expected a time, found NaN ('nan'), as in 1 of 2 rows; at most a tenth "
+            "may lack it");
   EXPECT_EQ(refusal(kImu, header + row + ",0,0,0,0,0,9.8\n"),
-            "t.csv:3: time: expected a time >= 1000000000 ns, found an empty cell");
+            "t.csv:3: time: expected a time, found an empty cell, as in 1 of 2 rows; at most a "
+            "tenth may lack it");
   EXPECT_EQ(refusal(kImu, header + row + "2,0,up,0,0,0,9.8\n"),
             "t.csv:3: wy: expected a number, found 'up'");
   EXPECT_EQ(refusal(kImu, header + row + "2,0,0\n"),

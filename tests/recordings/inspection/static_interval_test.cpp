@@ -50,6 +50,14 @@ TEST(StaticIntervalFinder, MeasuresBiasAndNoiseDensity) {
   }
 }
 
+TEST(StaticIntervalFinder, BeginsAtTheEarliestStampThoughALaterOneIsReadFirst) {
+  StaticIntervalFinder finder;
+  RandomStream noise(13, "noise");
+  feed(finder, noise, 2.5, 2.5 + 0.5 / kRate, false);
+  feed(finder, noise, 0.0, 5.0, false);
+  EXPECT_NEAR(finder.longest().value().begin_s, 0.0, 1e-9);
+}
+
 TEST(StaticIntervalFinder, FindsTheLongestInterval) {
   StaticIntervalFinder finder;
   RandomStream noise(12, "noise");

@@ -113,14 +113,15 @@ TEST_F(AssumedInputs, AnImuWhoseBatchesShareAStampHasTheRateOfItsRecordTimes) {
   EXPECT_FALSE(warns(setup, "IMU of 5 Hz"));
 }
 
-TEST_F(AssumedInputs, AnImuInBatchesHasTheRateOfItsSamples) {
+TEST_F(AssumedInputs, AnImuInBatchesIsSpreadOverThem) {
   for (const Duration within : {Duration{0}, Duration{20'000}}) {
     const auto setup = with_imu(500, [within](int k, ImuSample& sample) {
       sample.stamp = kStart + (k / 10) * kSecond / 5;
       return (k / 10) * kSecond / 5 + kSecond / 5 + k % 10 * within;
     });
     EXPECT_NEAR(setup.imu_rate_hz.value_or(0.0), 50.0, 1.1) << within;
-    EXPECT_TRUE(warns(setup, "which come in batches: times within a batch are not known"));
+    EXPECT_TRUE(warns(setup, "/imu: no stamps, and record times come in batches of 10 samples"));
+    EXPECT_FALSE(warns(setup, "times within a batch are not known"));
     EXPECT_FALSE(warns(setup, " Hz by its stamps"));
   }
 }

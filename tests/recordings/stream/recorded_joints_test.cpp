@@ -8,8 +8,8 @@
 #include "core/leg_kinematics.hpp"
 #include "recordings/legs/contact_detector.hpp"
 #include "recordings/messages/message_types.hpp"
-#include "tests/recordings/legs/trot.hpp"
 #include "tests/recordings/stream/recorded_deliveries.hpp"
+#include "tests/recordings/stream/recorded_trot.hpp"
 #include "tests/recordings/stream/robot_recording.hpp"
 
 namespace aims {
@@ -17,8 +17,10 @@ namespace {
 
 using test::kMounted;
 using test::kStart;
+using test::RecordedTrot;
 using test::Recording;
 using test::RobotRecording;
+using test::TrotOptions;
 
 /// Where nothing states the lengths of the legs.
 constexpr LegGeometry kGo1 = {0.188, 0.047, 0.08, 0.213, 0.213, 0.022};
@@ -92,105 +94,6 @@ TEST_F(RecordedJoints, TheRigHasTheGeometryAndTheRatesOfTheRecording) {
   EXPECT_NEAR(setup.rig.imu_rate_hz, setup.imu_rate_hz.value(), 0.1 * setup.rig.imu_rate_hz);
   EXPECT_EQ(setup.rig.leg_rate_hz, SensorRig().leg_rate_hz) << "no packets: the nominal rate";
 }
-
-/// A trot recorded as sensor_msgs/JointState with torques of the knees, and forces of the feet.
-struct TrotOptions {
-  bool named = true;
-  double unit = 1.0;  ///< of the angles, in rad
-  std::array<int, kLegCount> legs = {0, 1, 2, 3};
-  std::array<int, kLegCount> feet = {0, 1, 2, 3};
-  bool forces = true;
-  double knee_sign = 1.0;
-  float load = 60.0F;  ///< of a foot that stands
-  float lifted = 0.0F;
-  bool single = false;  ///< each leg has a topic of its own
-  int lost = 0;         ///< of so many messages of the joints one
-};
-
-MessageBytes trot_joints(Time stamp, const test::Trot& trot, double time,
-                         const TrotOptions& options) {
-  MessageBytes out;
-  out.put(std::uint32_t{0});
-  out.time(stamp);
-  out.text("base");
-  std::vector<std::string> names;
-  std::vector<double> position, velocity, effort;
-  const JointVector q = trot.angles(time), dq = trot.rates(time);
-  for (const int leg : options.legs) {
-    constexpr std::array<const char*, kLegCount> kNames = {"FL", "FR", "RL", "RR"};
-    constexpr std::array<const char*, 3> kParts = {"_hip", "_thigh", "_calf"};
-    for (int part = 0; part < 3; ++part) {
-      if (options.named) {
-        names.push_back(std::string(kNames[static_cast<std::size_t>(leg)]) +
-                        kParts[static_cast<std::size_t>(part)]);
-      }
-      position.push_back(q[3 * leg + part] / options.unit);
-      velocity.push_back(dq[3 * leg + part] / options.unit);
-      const bool bears = part == 2 && trot.contact(time)[static_cast<std::size_t>(leg)];
-      effort.push_back(bears ? -11.0 : 0.4);
-    }
-  }
-  out.length(names.size());
-  for (const std::string& name : names) out.text(name);
-  for (const auto* each : {&position, &velocity, &effort}) out.array(*each);
-  return out;
-}
-
-class RecordedTrot : public test::RecordingTest {
- protected:
-  Recording read(const TrotOptions& options, RecordingConfig config = {}) {
-    const auto file = folder_.path() / (std::to_string(count_++) + ".bag");
-    RobotRecording robot(file);
-    robot.add_transforms(kMounted);
-    const MessageType forces = {"std_msgs/Float32MultiArray", "6a40e0ffa6a17a503ac3f8616991b1f6",
-                                "MultiArrayLayout layout\nfloat32[] data\n" + std::string(80, '=') +
-                                    "\nMSG: std_msgs/MultiArrayLayout\nMultiArrayDimension[] dim\n"
-                                    "uint32 data_offset\n" +
-                                    std::string(80, '=') +
-                                    "\nMSG: std_msgs/MultiArrayDimension\nstring label\n"
-                                    "uint32 size\nuint32 stride\n"};
-    const test::Trot trot = {.knee_sign = options.knee_sign};
-    for (int k = 0; k < 400; ++k) {
-      const Time now = kStart + k * 10 * kMillisecond;
-      const double time = 0.01 * k + 0.003;
-      robot.add_imu(now, 1);
-      if (options.forces) {
-        MessageBytes message;
-        message.length(0);
-        message.put(std::uint32_t{0});
-        message.length(std::size_t{kLegCount});
-        for (const int leg : options.feet) {
-          message.put(trot.contact(time)[static_cast<std::size_t>(leg)] ? options.load
-                                                                        : options.lifted);
-        }
-        robot.add("/foot_forces", forces, now, message);
-      }
-      if (options.lost > 0 && k % options.lost == 2) continue;
-      if (options.single) {
-        for (const char* leg : {"/fl", "/fr", "/rl", "/rr"}) {
-          robot.add(std::string(leg) + "/joint_states", joint_state_type(), now,
-                    trot_joints(now, trot, time, options));
-        }
-        continue;
-      }
-      robot.add("/joint_states", joint_state_type(), now, trot_joints(now, trot, time, options));
-    }
-    robot.close();
-    config.topics.lidar = "none";
-    if (options.forces) config.topics.contacts = "/foot_forces";
-    return test::read_recording(file, config);
-  }
-
-  /// Mean velocity of the legs along x [m/s].
-  static double speed(const Recording& read) {
-    double sum = 0.0;
-    const auto legs = test::legs_of(read.deliveries);
-    for (const LegOdometrySample& each : legs) sum += each.linear_velocity.x();
-    return sum / static_cast<double>(std::max<std::size_t>(1, legs.size()));
-  }
-
-  int count_ = 0;
-};
 
 TEST_F(RecordedTrot, JointsWithoutNamesAreGivenByTheirIndices) {
   RecordingConfig config;
@@ -275,16 +178,6 @@ TEST_F(RecordedTrot, LoadsThatTurnNegativeLaterAreNoContacts) {
   EXPECT_EQ(detector.detect(loads), (std::array{false, false, true, true}));
   EXPECT_TRUE(detector.contradicts_sign(loads));
   EXPECT_FALSE(detector.contradicts_sign({60.0, -60.0, -60.0, -60.0}));
-}
-
-TEST_F(RecordedTrot, LegsOnTopicsOfTheirOwnAreNamed) {
-  const Recording single = read({.single = true});
-  EXPECT_FALSE(single.setup.has_legs);
-  EXPECT_TRUE(
-      single.noted("/fl/joint_states, /fr/joint_states, /rl/joint_states, "
-                   "/rr/joint_states (sensor_msgs/JointState) hold one leg each"));
-  EXPECT_NE(single.setup.leg_lack.find("hold one leg each"), std::string::npos);
-  EXPECT_FALSE(read({}).noted("one leg"));
 }
 
 TEST_F(RecordedTrot, LegsInMessagesOfTheirOwnAreNamed) {
