@@ -13,6 +13,7 @@
 #include "bench/estimate/stream.hpp"
 #include "bench/run/evaluate.hpp"
 #include "bench/scoring/report.hpp"
+#include "bench/scoring/score_statistics.hpp"
 #include "core/files/csv.hpp"
 
 namespace aims {
@@ -81,6 +82,7 @@ FaultCase case_of(const StreamFault& fault, const EstimatorOutcome& outcome, Tim
   result.estimator = outcome.name;
   result.success = outcome.scores.success;
   result.ate_m = outcome.scores.ate_m;
+  result.partial = outcome.scores.partial;
   result.alarm_fraction = alarm_fraction(rows);
   result.judged = std::ranges::any_of(
       rows, [](const HealthRow& row) { return row.state != HealthState::kStarting; });
@@ -116,11 +118,15 @@ Result<std::vector<StreamFault>> selected(const std::vector<std::string>& names)
   return faults;
 }
 
+std::string state_text(const FaultCase& each) {
+  return std::string(each.judged ? name_of(each.worst) : "not judged");
+}
+
 std::string cell(const FaultCase& each) {
   std::string text = each.success ? "" : each.silent ? "SILENT " : "failed ";
   if (!each.failure.empty()) return text + "with an error";
-  if (each.ate_m) text += fmt::format("{:.2f} ", *each.ate_m);
-  return text + std::string(each.judged ? name_of(each.worst) : "not judged");
+  if (each.ate_m) text += fmt::format("{:.2f}{} ", *each.ate_m, part_mark(each.partial));
+  return text + state_text(each);
 }
 
 }  // namespace
@@ -184,15 +190,16 @@ Result<void> write_faults(const std::vector<FaultCase>& cases, const std::string
                 "alarm_fraction", "silent"});
   for (const FaultCase& each : cases) {
     csv.add(each.fault).add(each.estimator).add(each.success).add(each.ate_m);
-    csv.add(name_of(each.worst)).add(each.first_alarm_s).add(each.reasons);
+    csv.add(state_text(each)).add(each.first_alarm_s).add(each.reasons);
     csv.add(each.alarm_fraction).add(each.silent);
     csv.end_row();
   }
   const auto silent = std::ranges::count_if(cases, &FaultCase::silent);
   const std::string text = fmt::format(
-      "# Faults on {}\n\n{} of {} cases fail unnoticed (SILENT). Cells: ATE [m] and the worst "
-      "state "
-      "that the estimator reported.\n\n{}",
+      "# Faults on {}\n\n{} of {} cases fail unnoticed (SILENT). Cells: ATE [m], aligned at the "
+      "start "
+      "(part: over the part of the run that has poses alone), and the worst state that the "
+      "estimator reported.\n\n{}",
       sequence, silent, cases.size(), to_markdown(fault_table(cases)));
   return write_report({.name = "faults", .markdown = text, .csv = csv}, folder);
 }

@@ -91,9 +91,12 @@ function levelText(row: SuiteScenario): string | null {
   return row.family && isNumber(row.level) ? `${row.family} ${row.level} ${row.level_unit ?? ""}` : null;
 }
 
-/** Whether its value is of all that those of others are; a rate of success counts every run. */
+/** Scores of entire runs, whatever part of them an estimate has. */
+const kOfWholeRuns = new Set([kSuccessRate, "success", "success_1_percent", "coverage"]);
+
+/** Whether its value is of all that those of others are. */
 function isComparable(data: SuitePayload, scenario: string, estimator: string, view: View): boolean {
-  return view.score === kSuccessRate || isWhole(data, scenario, estimator);
+  return kOfWholeRuns.has(view.score) || isWhole(data, scenario, estimator);
 }
 
 /** Text of the best value of a row, of those whose estimates are whole: the smallest, for the success rate the largest. */
