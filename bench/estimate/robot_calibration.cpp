@@ -10,6 +10,7 @@
 #include "bench/metrics/chi_square.hpp"
 #include "core/files/text_file.hpp"
 #include "estimator/aims/robot_prior.hpp"
+#include "estimator/legs/joint_compliance.hpp"
 
 namespace aims {
 namespace {
@@ -18,6 +19,8 @@ namespace {
 constexpr double kAgreement = 0.99;
 /// An entry is observable when the data halve its deviation at least.
 constexpr double kHalved = 0.5;
+/// A compliance so many deviations of its prior away from it is that of soft joints.
+constexpr double kSoft = 2.0;
 /// Keeps directions without information solvable: a part of the prior's.
 constexpr double kRidge = 1e-9;
 
@@ -120,6 +123,20 @@ CalibratedQuantity calibrated(std::span<const LearnedQuantity> runs) {
   return result;
 }
 
+/// The scale of the legs is one with the compliance that it was found with: on soft joints, whose
+/// compliance is known too badly to start from, it is that of the place.
+void leave_out_soft_legs(std::vector<CalibratedQuantity>& quantities) {
+  const auto joints = std::ranges::find(quantities, "joint_compliance", &CalibratedQuantity::name);
+  const auto legs = std::ranges::find(quantities, "legs_by_feet", &CalibratedQuantity::name);
+  if (joints == quantities.end() || legs == quantities.end() || joints->used || !legs->used) return;
+  const double beyond = joints->values.front() - JointCompliance::kPrior;
+  if (beyond < kSoft * joints->prior_sigma.front()) return;
+  legs->used = false;
+  legs->note =
+      fmt::format("not used: the joints are soft ({:.2f} rad/m), and how much depends on the place",
+                  joints->values.front());
+}
+
 }  // namespace
 
 RobotCalibration combined(std::span<const CalibrationRun> runs, const std::string& estimator) {
@@ -140,6 +157,7 @@ RobotCalibration combined(std::span<const CalibrationRun> runs, const std::strin
       calibration.quantities.push_back(calibrated(all));
     }
   }
+  leave_out_soft_legs(calibration.quantities);
   return calibration;
 }
 

@@ -56,11 +56,11 @@ struct Failed {
 /// "gap: no poses for too long, at 10.0 to 12.3 s"; a late start has no time of its own.
 std::string reason_text(const Reason& reason, const Failed& failed) {
   std::string text = words_of(reason.first);
-  if (reason.and_partial) text += ", and poses are missing";
-  if (!failed.first || reason.first == name_of(FailureReason::kStartsLate)) return text;
+  const std::string also = reason.and_partial ? "; poses are missing, too" : "";
+  if (!failed.first || reason.first == name_of(FailureReason::kStartsLate)) return text + also;
   text += fmt::format(", at {:.1f}", *failed.first);
   if (*failed.last - *failed.first >= 0.05) text += fmt::format(" to {:.1f}", *failed.last);
-  return text + " s";
+  return text + " s" + also;
 }
 
 /// The failures of an estimator by their reasons, but for errors and crashes, which are listed on

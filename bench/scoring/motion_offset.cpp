@@ -20,20 +20,22 @@ constexpr double kLeastCorrelation = 0.9;
 constexpr double kLeastLead = 0.05;       ///< in correlation, over other offsets
 constexpr double kLeastDeviation = 0.02;  ///< of the speeds [m/s]
 
-/// The speed over `kWindow` from that time on [m/s]; none where the poses do not cover it.
-std::optional<double> speed_from(const Trajectory& poses, Time at) {
+/// The mean speed over `window` from that time on [m/s]; none where the poses do not cover it.
+std::optional<double> speed_from(const Trajectory& poses, Time at, Duration window) {
   const auto from = pose_at(poses, at);
-  const auto to = pose_at(poses, at + kWindow);
+  const auto to = pose_at(poses, at + window);
   if (!from || !to) return std::nullopt;
-  return (to->translation - from->translation).norm() / to_seconds(kWindow);
+  return (to->translation - from->translation).norm() / to_seconds(window);
 }
 
-/// The speed from each point of the grid on [m/s].
+/// The speed from each point of the grid on [m/s]; a coarse grid has longer windows, which leave
+/// nothing out between its points.
 std::vector<double> speeds_of(const Trajectory& poses, Duration grid) {
   std::vector<double> speeds;
-  const Time end = poses.back().stamp - kWindow;
+  const Duration window = std::max(kWindow, grid);
+  const Time end = poses.back().stamp - window;
   for (Time at = poses.front().stamp; at <= end; at += grid) {
-    const auto speed = speed_from(poses, at);
+    const auto speed = speed_from(poses, at, window);
     if (!speed) break;
     speeds.push_back(*speed);
   }
@@ -81,7 +83,7 @@ MotionOffset refined(const Trajectory& poses, const Trajectory& true_poses, doub
     std::vector<double> ours, theirs;
     for (std::size_t i = 0; i < speeds.size(); ++i) {
       const Time at = poses.front().stamp + static_cast<Time>(i) * kGrid + from_seconds(offset);
-      const auto speed = speed_from(true_poses, at);
+      const auto speed = speed_from(true_poses, at, kWindow);
       if (!speed) continue;
       ours.push_back(speeds[i]);
       theirs.push_back(*speed);
@@ -121,17 +123,18 @@ std::optional<MotionOffset> motion_offset(const Trajectory& estimate, const Traj
   for (std::ptrdiff_t lag = first; lag <= last; ++lag) by_lag.push_back(correlation_at(a, b, lag));
   const auto peak = std::ranges::max_element(by_lag) - by_lag.begin();
   const double best = by_lag[static_cast<std::size_t>(peak)];
-  if (best < kLeastCorrelation || peak == 0 || peak + 1 == std::ssize(by_lag)) return std::nullopt;
+  if (peak == 0 || peak + 1 == std::ssize(by_lag)) return std::nullopt;
   for (std::ptrdiff_t i = 0; i < std::ssize(by_lag); ++i) {
-    const bool beside = std::abs(i - peak) * grid <= kBeside;
+    const bool beside = std::abs(i - peak) * grid <= std::max(kBeside, 2 * grid);
     if (!beside && by_lag[static_cast<std::size_t>(i)] > best - kLeastLead) return std::nullopt;
   }
   const auto at = static_cast<std::size_t>(peak);
   const double lag =
       static_cast<double>(first + peak) + top_of(by_lag[at - 1], best, by_lag[at + 1]);
   const Duration starts = true_poses.front().stamp - poses.front().stamp;
-  return refined(poses, true_poses, to_seconds(starts) + lag * to_seconds(grid),
-                 to_seconds(grid) / 2.0);
+  const MotionOffset found = refined(poses, true_poses, to_seconds(starts) + lag * to_seconds(grid),
+                                     to_seconds(grid));
+  return found.correlation >= kLeastCorrelation ? std::optional(found) : std::nullopt;
 }
 
 }  // namespace aims

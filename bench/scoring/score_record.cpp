@@ -13,6 +13,9 @@
 namespace aims {
 namespace {
 
+/// An estimate of a whole run covers more of its time [-].
+constexpr double kWhole = 0.9;
+
 Json weak_axis_json(const std::vector<WeakAxisScore>& scores) {
   Json json = Json::object();
   for (const WeakAxisScore& score : scores) {
@@ -120,7 +123,9 @@ bool is_partial(const Json& scores) {
   const std::string reason = value_in(scores, "diverged_reason", "");
   const bool lacks_poses = !reason.empty() && reason != name_of(FailureReason::kErrorLimit) &&
                            reason != name_of(FailureReason::kInvalidRun);
-  return value_in(scores, "partial", lacks_poses);  // older results know the first failure alone
+  // Older results know the first failure and how much is covered.
+  const bool covers_less = number_at(scores, "coverage").value_or(1.0) < kWhole;
+  return value_in(scores, "partial", lacks_poses || covers_less);
 }
 
 std::vector<std::string> estimators_in(std::span<const RunRecord> runs) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "bench/scoring/score_statistics.hpp"
 #include "bench/tuning/effect.hpp"
 #include "bench/tuning/values_text.hpp"
 
@@ -98,9 +99,12 @@ std::string text_of(const BestPoint& best, const ResponseTable& table) {
   return best.is_default() ? "no point is better than the defaults: " + values : values;
 }
 
-bool is_resolved(const BestPoint& best, const Effect& effect) {
-  return effect.tells_best() &&
-         (best.is_default() || !best.gain_interval.low || *best.gain_interval.low > 0.0);
+std::string standing_of(const BestPoint& best, const Effect& effect) {
+  const bool beyond_noise =
+      best.is_default() || !best.gain_interval.low || *best.gain_interval.low > 0.0;
+  if (!effect.tells_best() || !beyond_noise) return "least, not resolved";
+  const bool small = effect.small || (best.gain && *best.gain <= kMinChange);
+  return !best.is_default() && small ? "least, too little to matter" : kBestStanding;
 }
 
 Result<BestPoint> best_point(const ResponseTable& table, const Objective& objective) {

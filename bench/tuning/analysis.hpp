@@ -34,9 +34,11 @@ struct BestPoint {
   bool is_default() const { return point == kDefaults; }
 };
 
-/// Whether the point is more than the least of a scatter: points differ by more than seeds do, and
-/// where the defaults are not the best, the interval of its gain over them excludes zero.
-bool is_resolved(const BestPoint& best, const Effect& effect);
+/// What the point is: "best", where points differ by more than seeds do and, unless it has the
+/// defaults, the interval of its gain over them excludes zero; else "least, not resolved", or "least,
+/// too little to matter" of a gain that comparisons call small.
+std::string standing_of(const BestPoint& best, const Effect& effect);
+inline constexpr const char* kBestStanding = "best";
 
 /// The point with the least objective over the cases; of those alike but for rounding the one next
 /// to the defaults, themselves first. None when none has an objective.

@@ -19,8 +19,9 @@ namespace {
 constexpr double kEffectLevel = 0.05;
 constexpr double kSameScore = 1e-9;  ///< relative
 constexpr int kDraws = 199;
-constexpr double kCovered = 0.5;              ///< fraction of points, and of spans of parameters
-constexpr std::size_t kFewestWithoutOne = 5;  ///< points, to leave one out
+constexpr std::size_t kMostArrangements = 2000;  ///< that are all looked at
+constexpr double kCovered = 0.5;                 ///< fraction of points, and of spans of parameters
+constexpr std::size_t kFewestWithoutOne = 5;     ///< points, to leave one out
 
 /// An objective per seed, of each point.
 using Rows = std::vector<std::vector<double>>;
@@ -81,10 +82,38 @@ std::pair<std::size_t, bool> farthest_row(const Rows& rows) {
   return {static_cast<std::size_t>(farthest - sums.begin()), *farthest > mean};
 }
 
+/// How many arrangements of the points within seeds there are, up to one that all seeds share; none
+/// of many.
+std::optional<std::size_t> arrangements_of(std::size_t points, std::size_t seeds) {
+  std::size_t of_seed = 1;
+  for (std::size_t k = 2; k <= points && of_seed <= kMostArrangements; ++k) of_seed *= k;
+  std::size_t all = 1;
+  for (std::size_t s = 1; s < seeds && all <= kMostArrangements; ++s) all *= of_seed;
+  return all <= kMostArrangements ? std::optional(all) : std::nullopt;
+}
+
+/// Of the arrangements of the columns from `seed` on, those whose spread is at least `least`.
+std::size_t count_as_large(Rows& columns, std::size_t seed, double least) {
+  if (seed == columns.size()) return spread_of(columns) >= least ? 1 : 0;
+  const std::vector<double> column = columns[seed];
+  std::vector<std::size_t> order(column.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::size_t count = 0;
+  do {
+    for (std::size_t k = 0; k < order.size(); ++k) columns[seed][k] = column[order[k]];
+    count += count_as_large(columns, seed + 1, least);
+  } while (std::ranges::next_permutation(order).found);
+  columns[seed] = column;
+  return count;
+}
+
 std::optional<double> p_of(const Rows& rows, std::size_t seeds) {
   if (seeds < 2 || rows.size() < 2) return std::nullopt;
   Rows columns = centered_columns(rows, seeds);
   const double found = spread_of(columns);
+  if (const auto all = arrangements_of(rows.size(), seeds)) {
+    return double(count_as_large(columns, 1, found * (1.0 - kSameScore))) / double(*all);
+  }
   RandomStream random = rng(1, "effect");
   int as_large = 1;
   for (int draw = 0; draw < kDraws; ++draw) {
@@ -263,6 +292,7 @@ Effect effect_of(const ResponseTable& table, const Objective& objective,
   const SeedGroups seeds = cases_by_seed(table, cases);
   Rows rows = by_seed(table, objective, seeds);
   effect.p = p_of(rows, seeds.size());
+  effect.arrangements = arrangements_of(rows.size(), seeds.size()).value_or(0);
   effect.testable = least_p(rows, seeds.size()).value_or(0.0) <= kEffectLevel;
   if (!effect.is_resolved() || !effect.p || rows.size() < kFewestWithoutOne) return effect;
   const auto [farthest, is_worse] = farthest_row(rows);
@@ -297,9 +327,10 @@ std::string text_of(const Effect& effect) {
   text += ".";
   if (effect.p) {
     text += fmt::format(
-        " p = {:.2g}: permutation test on the variance over points of their sums over seeds, {} "
-        "draws.",
-        *effect.p, kDraws);
+        " p = {:.2g}: permutation test on the variance over points of their sums over seeds, {}.",
+        *effect.p,
+        effect.arrangements > 0 ? fmt::format("all {} arrangements", effect.arrangements)
+                                : fmt::format("{} draws", kDraws));
   }
   return text + saturated_text(effect);
 }

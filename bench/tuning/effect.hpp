@@ -17,9 +17,11 @@ struct Effect {
   double least = 0.0;      ///< objective over all sequences
   double most = 0.0;
   /// Permutation test in randomized blocks, as that of Friedman (1937): the points are exchanged
-  /// within each seed; the fraction of 199 draws in which the variance over points of their sums
-  /// over seeds, of the objective's logarithm, is as large. None with one seed.
+  /// within each seed; the fraction of all arrangements, of 199 draws where there are many, in
+  /// which the variance over points of their sums over seeds, of the objective's logarithm, is as
+  /// large. None with one seed.
   std::optional<double> p;
+  std::size_t arrangements = 0;  ///< that were looked at, all there are; 0: draws
   /// Whether the test could resolve an effect that is alike on all seeds: not with few seeds and
   /// points, or many equal ones.
   bool testable = true;

@@ -161,7 +161,8 @@ const char* name_of(FrontVerdict verdict) {
   return "too few seeds";
 }
 
-PairedGain paired_gain(const ResponseTable& table, const Objective& objective, std::size_t point) {
+PairedGain paired_gain(const ResponseTable& table, const Objective& planned, std::size_t point) {
+  const Objective objective = objective_for(planned, table);
   const SeedGroups seeds = cases_by_seed(table, cases_of_both(table, objective, point));
   std::vector<std::size_t> cases;
   for (const auto& of : seeds) cases.insert(cases.end(), of.begin(), of.end());

@@ -128,6 +128,11 @@ std::string best_markdown(const ResponseTable& table, const Objective& objective
                      other_points(table), figures, of_defaults);
 }
 
+/// "Least objective, not resolved" of "least, not resolved".
+std::string heading_of(const std::string& standing) {
+  return "Least objective" + standing.substr(standing.find(','));
+}
+
 /// What the best point gains over the defaults.
 std::string gain_markdown(const BestPoint& best) {
   if (best.defaults_diverged) return fmt::format("No gain: {}.\n", kNoGain);
@@ -198,7 +203,8 @@ TextTable parameter_table(const ResponseTable& table, const BestPoint& best,
   return text;
 }
 
-TextTable gain_table(const ResponseTable& table, const Objective& objective, std::size_t point) {
+TextTable gain_table(const ResponseTable& table, const Objective& planned, std::size_t point) {
+  const Objective objective = objective_for(planned, table);
   TextTable text;
   text.header = {"scenario",     "score (median " + objective.score + "), defaults",
                  "tuned",        "objective, defaults",
@@ -235,8 +241,9 @@ std::string response_markdown(const ResponseTable& table, const Objective& objec
   std::string text =
       fmt::format("Objective: {}.\n{}", text_of(objective), best_markdown(table, objective, *best));
   const bool outside = best->is_default() && !is_inside(table, table.defaults);
-  const bool known = is_resolved(*best, effect) || outside;  // the effect is that of the ranges
-  text += fmt::format("{}: {}.\n{}", known ? "Best values" : "Least objective, not resolved",
+  const std::string standing = standing_of(*best, effect);
+  const bool known = standing == kBestStanding || outside;  // the effect is that of the ranges
+  text += fmt::format("{}: {}.\n{}", known ? "Best values" : heading_of(standing),
                       text_of(*best, table), gain_markdown(*best));
   for (const std::string& line : left_out_lines(table)) text += fmt::format("- {}\n", line);
   for (const std::string& line : failed_lines(table)) text += fmt::format("- {}\n", line);

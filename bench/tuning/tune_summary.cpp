@@ -126,13 +126,15 @@ CsvTable csv_of(const TuneResult& result) {
 }
 
 std::vector<std::string> outcome_row(const std::string& name, const ResponseTable& table,
-                                     const Objective& objective, std::size_t point) {
-  const PairedGain gain = paired_gain(table, objective, point);
+                                     const Objective& planned, std::size_t point) {
+  const PairedGain gain = paired_gain(table, planned, point);
+  const Objective objective = objective_for(planned, table);
   const auto all = cases_of(table, "");
+  const std::string of = gain.scored < gain.sequences ? fmt::format(" (of {})", gain.scored) : "";
   return {name,
           fmt::format("{}", gain.sequences),
-          figure_text(gain.median_before),
-          figure_text(gain.median_after),
+          figure_text(gain.median_before) + of,
+          figure_text(gain.median_after) + of,
           fmt::format("{}", gain.diverged_before),
           fmt::format("{}", gain.diverged),
           figure_text(objective_at(table, objective, kDefaults, all)),

@@ -81,7 +81,8 @@ LinearMeasurement zero_rate_model(const NominalState& state, const Eigen::Vector
   return m;
 }
 
-/// All feet are in contact, and the smoothed speeds of joints and base are small.
+/// Three feet are in contact, since the load of one may be lost, or none is, and the smoothed
+/// speeds of joints and base are small.
 bool ZeroVelocityDetector::legs_still(const LegOdometrySample& legs, double factor) {
   const bool gap = !last_ || legs.stamp - *last_ > kMaxGap;
   const double dt = gap ? 1.0 : to_seconds(legs.stamp - *last_) / kLegSmoothing;
@@ -92,9 +93,9 @@ bool ZeroVelocityDetector::legs_still(const LegOdometrySample& legs, double fact
   smoothed_velocity_ += gain * (legs.linear_velocity - smoothed_velocity_);
   smoothed_joint_square_ += gain * (rate.squaredNorm() / kJointCount - smoothed_joint_square_);
   const bool has_joints = !position.isZero(0.0);  // some recordings have no joints and contacts
-  const bool all_stand =
-      std::all_of(legs.contact.begin(), legs.contact.end(), [](bool stands) { return stands; });
-  return !gap && (!has_joints || all_stand) && smoothed_velocity_.norm() <= factor * kMaxLegSpeed &&
+  const auto standing = std::ranges::count(legs.contact, true);
+  const bool may_stand = !has_joints || standing >= 3 || standing == 0;
+  return !gap && may_stand && smoothed_velocity_.norm() <= factor * kMaxLegSpeed &&
          std::sqrt(smoothed_joint_square_) <= factor * kMaxJointRate;
 }
 

@@ -82,7 +82,7 @@ Result<std::optional<PairedGain>> held_out_of(const TuningSource& source,
   const auto found = std::find(table.points.begin(), table.points.end(), values);
   if (found == table.points.end()) return std::optional<PairedGain>();
   const auto point = static_cast<std::size_t>(found - table.points.begin());
-  return std::optional(paired_gain(table, objective_for(objective, table), point));
+  return std::optional(paired_gain(table, objective, point));
 }
 
 /// The objective of each of the estimator's points, in their order.

@@ -197,7 +197,7 @@ Json analysis_json(const ResponseTable& table, const Objective& objective, PageD
   json["best"] = best_json(table, *best);
   const Effect effect = effect_of(table, objective);
   json["effect"] = text_of(effect);
-  json["resolved"] = is_resolved(*best, effect);
+  json["standing"] = standing_of(*best, effect);
   const auto sensitivity = sensitivity_of(table, objective);
   if (table.ranges.size() == 1) {
     json["why_no_sensitivity"] = why_no_indices_of_one(effect);

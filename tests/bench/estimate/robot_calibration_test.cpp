@@ -109,6 +109,24 @@ TEST(CombinedCalibration, LegsThatNoRobotHasAreNotUsedAndItIsSaid) {
 }
 
 // Their disagreement is in the file; nothing starts from them.
+// Their scale is that of the place where it was found, and the compliance is known too badly.
+TEST(CombinedCalibration, TheScaleOfLegsOnSoftJointsIsNotUsed) {
+  const auto with_compliance = [](double value) {
+    CalibrationRun robot = run("a", 0.03, 0.01);
+    robot.learned.front().name = "legs_by_feet";
+    LearnedQuantity joints = run("a", value, 0.3).learned.front();
+    joints.name = "joint_compliance";
+    joints.prior_sigma = Eigen::VectorXd::Constant(1, 0.4);
+    robot.learned.push_back(joints);
+    return combined(std::vector{robot}, "aims_d").quantities;
+  };
+  const auto soft = with_compliance(2.0);
+  EXPECT_EQ(soft.back().verdict[0], kNotObservable);
+  EXPECT_FALSE(soft.front().used);
+  EXPECT_NE(soft.front().note.find("the joints are soft"), std::string::npos) << soft.front().note;
+  EXPECT_TRUE(with_compliance(0.5).front().used);
+}
+
 TEST(CombinedCalibration, WhatIsOnlyStatedIsNoWarningWhereRunsDisagree) {
   std::vector<CalibrationRun> runs = {run("a", 0.10, 0.01), run("b", 0.20, 0.01)};
   for (CalibrationRun& each : runs) {

@@ -101,7 +101,7 @@ TEST(EstimatorSpec, RejectsMalformedSpecsWithANearMatch) {
 
 TEST(EstimatorSpec, ALabelMustNotBeAnotherEstimatorsName) {
   expect_contains(error_of("lio=aims"), "name of another estimator");
-  expect_contains(error_of("aims=aims+degeneracy.eta=5"), "name of another estimator");
+  expect_contains(error_of("aims=aims+degeneracy.eta=5"), "--set estimators.aims.KEY=VALUE");
 }
 
 TEST(EstimatorSpec, RepeatedLabelsAreRejected) {

@@ -42,8 +42,8 @@ TEST(FailureReasons, ASingleRunNamesOnlyWhatItsTableLacks) {
   std::vector<RunRecord> stopped = wrong;
   stopped[0].scores["estimators"]["mine"]["partial"] = true;
   EXPECT_EQ(failure_lines(stopped),
-            std::vector<std::string>{"mine: error beyond the limit of a success, and poses are "
-                                     "missing, at 8.0 s"});
+            std::vector<std::string>{"mine: error beyond the limit of a success, at 8.0 s; poses "
+                                     "are missing, too"});
   EXPECT_TRUE(failure_lines({}).empty());
 }
 

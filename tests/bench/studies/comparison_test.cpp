@@ -285,8 +285,8 @@ TEST(Compare, NamesSettingsOfOneSideAndWhetherTheyAreOfTheTask) {
   EXPECT_EQ(text({"scene.corridor.length=10"}, {"scene.corridor.length=10"}), "");
   const std::string task = text({"lidar.columns=300", "scene.corridor.length=10"},
                                 {"scene.corridor.length=14", "lidar.columns=300"});
-  EXPECT_NE(task.find("before: scene.corridor.length=10; after: scene.corridor.length=14. The "
-                      "sequences differ"),
+  EXPECT_NE(task.find("before: scene.corridor.length=10; after: scene.corridor.length=14.\n"
+                      "The sequences differ"),
             std::string::npos)
       << task;
   const std::string own = text({}, {"estimators.aims.degeneracy.eta=0"});

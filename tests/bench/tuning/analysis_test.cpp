@@ -253,6 +253,25 @@ TEST(Effect, OfAParameterIsNotDeniedByPairsAtOneValueOfAnother) {
             (std::vector<bool>{false, true}));
 }
 
+// Draws would say 0.065 of an effect that is alike on six seeds.
+TEST(Effect, OfFewArrangementsIsTestedExactly) {
+  const auto ranges = ranges_of({"a=0:1:2"});
+  const auto halved = table_of(ranges, {0.0}, {{0.0}, {1.0}}, 6,
+                               [](const std::vector<double>& point, const ResponseCase& on) {
+                                 return (point[0] == 1.0 ? 0.5 : 1.0) * double(1 + on.seed);
+                               });
+  const Effect effect = effect_of(halved, absolute());
+  EXPECT_NEAR(*effect.p, 1.0 / 32.0, 1e-12);
+  EXPECT_EQ(standing_of(*best_point(halved, absolute()), effect), "best");
+  const auto hardly = table_of(ranges, {0.0}, {{0.0}, {1.0}}, 6,
+                               [](const std::vector<double>& point, const ResponseCase& on) {
+                                 return (point[0] == 1.0 ? 0.998 : 1.0) * double(1 + on.seed);
+                               });
+  EXPECT_EQ(standing_of(*best_point(hardly, absolute()), effect_of(hardly, absolute())),
+            "least, too little to matter");
+  EXPECT_NE(text_of(effect).find("all 32 arrangements"), std::string::npos) << text_of(effect);
+}
+
 TEST(Effect, OfASinglePointOrASmallOneIsSaidToBeThat) {
   const auto ranges = ranges_of({"a=0:1:12"});
   const auto of = [&](double base, double effect, double noise) {

@@ -235,6 +235,20 @@ TEST(FailedRunsOfTuning, OfTheDefaultsAloneLeaveNoGain) {
 }
 
 // A tuning and its results read from disk have their sequences in another order.
+// A sequence on which the defaults have 0 is not left out for want of a ratio.
+TEST(HeldOutVerdict, CountsSequencesOnWhichTheDefaultsHaveZero) {
+  ResponseTable table;
+  table.ranges = {{.key = "n", .low = 0.0, .high = 2.0}};
+  table.defaults = {0.0};
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) table.cases.push_back({"walk", "walk", seed});
+  table.default_runs = {{0.0}, {0.0}, {0.0}, {1.0}, {2.0}, {3.0}};
+  table.points = {{1.0}};
+  table.runs = {{{1.0}, {1.0}, {1.0}, {1.0}, {2.0}, {3.0}}};
+  const PairedGain gain = paired_gain(table, {.score = "health.degraded_s"}, 0);
+  EXPECT_EQ(gain.sequences, 6U);
+  EXPECT_EQ(gain.median_after, 1.0);
+}
+
 TEST(HeldOutVerdict, DoesNotDependOnTheOrderOfTheSequences) {
   ResponseTable table;
   table.ranges = {{.key = "a", .low = 0.0, .high = 1.0}};

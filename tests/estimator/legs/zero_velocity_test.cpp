@@ -78,6 +78,16 @@ TEST(ZeroVelocity, WithoutJointsUsesTheLegSpeed) {
   EXPECT_EQ(observe(rig).standing, 0) << "slow walking";
 }
 
+TEST(ZeroVelocity, OneFootWhoseLoadIsLostDoesNotHideThatTheRobotStands) {
+  Rig rig;
+  rig.legs = [](double, LegOdometrySample& legs) { legs.contact[2] = false; };
+  EXPECT_GT(observe(rig).standing, 400);
+  rig.legs = [](double, LegOdometrySample& legs) { legs.contact.fill(false); };
+  EXPECT_GT(observe(rig).standing, 400) << "no load at all";
+  rig.legs = [](double, LegOdometrySample& legs) { legs.contact[0] = legs.contact[3] = false; };
+  EXPECT_EQ(observe(rig).standing, 0) << "in the middle of a trot";
+}
+
 TEST(ZeroVelocity, LiftedFeetAreNotStanding) {
   Rig rig;
   rig.legs = [](double t, LegOdometrySample& legs) {

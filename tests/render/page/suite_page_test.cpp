@@ -234,7 +234,9 @@ TEST(SuitePage, ComparesAsAimsCompareDoesTheOtherBeingBefore) {
   const auto expected = compare(*read_results(before), *read_results(after));
   Json json = page->json["compare"];
   EXPECT_EQ(json["summary"], summary_text(expected));
+  EXPECT_EQ(json["differs"], settings_text(expected));
   json.erase("summary");
+  json.erase("differs");
   EXPECT_EQ(json, comparison_json(expected, "before", "after"));
   EXPECT_GT(json["worse"], 0);
   EXPECT_TRUE(contains(message_of(after, against(folder.path() / "no")), "no finished results"));

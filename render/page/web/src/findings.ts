@@ -93,10 +93,11 @@ function place(returns: number | null): string {
   return "";
 }
 
-function asideText({ name, percent, aside }: Finding, unnoticed: string): string {
+function asideText({ name, percent, aside, fails }: Finding, unnoticed: string): string {
   const off = aside!.direction === "height" ? "off in height" : "off sideways";
   const length = percent === null ? "" : `, its length by ${percentText(percent)}`;
-  return `${name} is up to ${formatNumber(aside!.most, 2)} m ${off}${length}${unnoticed}`;
+  const is = fails ? `fails on ${fails},` : "is";
+  return `${name} ${is} up to ${formatNumber(aside!.most, 2)} m ${off}${length}${unnoticed}`;
 }
 
 function lossText(each: Finding, route: Route): string {

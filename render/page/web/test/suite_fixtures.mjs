@@ -136,7 +136,7 @@ export function tuning({ parameter = "degeneracy.eta", scenarios = ["corridor", 
   const analysis = {
     score: "ate_m", objective: "median of ate_m; a diverged run counts 10", axis: "objective: ate_m [m]", objectives: Float32Array.from(points, value),
     held_out: null, relative: false, points: 12, seeds: 2, incomplete: 0,
-    resolved: true,
+    standing: "best",
     effect: "The objective lies between 0.4 and 1.1 at the 12 points (175 %), beyond the scatter of seeds (p = 0.005).",
     best: { is_default: false, without_effect: [false, false], values: [6, 1], text: `${parameter} 6.00 instead of 3.00`, between: [[4, 6], [1, 10]], objective: 0.4, objective_interval: [0.38, 0.44], defaults: 0.755, gain: 0.47,
       gain_interval: [0.4, 0.5], distance: [0.5, -0.55] },

@@ -43,7 +43,7 @@ test("the held-out verdict leads, and says when there is none", { skip }, async 
 
 test("the least of points that are not resolved is not called best", { skip }, async () => {
   const data = tuning();
-  data.estimators[0].analyses[0].resolved = false;
+  data.estimators[0].analyses[0].standing = "least, not resolved";
   const { page } = await pages.show(data);
   assert.match(await page.locator("#best p").first().innerText(), /^Least objective, not resolved: degeneracy\.eta 6\.00/);
 });

@@ -107,8 +107,9 @@ export function align(tracks: Track[], positiveOnly = false): Aligned {
 
 /** Where the cursor may stand [s]: scans, else samples of an estimator or the truth; ascending. */
 export function cursorTimes(data: RunPayload): number[] {
+  const spanOf = (t: Numbers | undefined) => (t && t.length > 0 ? t[t.length - 1]! - t[0]! : 0);
   const estimators = data.estimators.map((item) => item.series?.t);
-  const longest = estimators.sort((a, b) => (b?.length ?? 0) - (a?.length ?? 0))[0];
+  const longest = estimators.sort((a, b) => spanOf(b) - spanOf(a) || (b?.length ?? 0) - (a?.length ?? 0))[0];
   const found = [data.localizability?.t, longest, data.truth?.t].find((times) => times?.length);
   return found ? [...found].filter(isNumber).sort((a, b) => a - b) : [];
 }

@@ -110,6 +110,7 @@ function boxes(data: SuitePayload, scenario: SuiteScenario, score: string): HTML
 
 const kVerbs: Record<string, string> = {
   failed: "failed to run", gap: "has a gap", starts_late: "starts late", ends_early: "ends early", no_poses: "has no poses",
+  invalid_pose: "returns poses that are none",
 };
 
 /** "has a gap on 4 of 4 seeds", "failed to run on 1 and has a gap on 2 of 4 seeds"; null where estimates are whole. */

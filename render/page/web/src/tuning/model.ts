@@ -103,8 +103,8 @@ export interface Analysis {
   effect?: string;
   why_no_best?: string;
   held_out: HeldOut | null;
-  /** Whether points differ by more than seeds scatter. */
-  resolved: boolean;
+  /** What the best point is: "best", or "least, not resolved" or the like. */
+  standing: string;
   sensitivity: Sensitivity | null;
   why_no_sensitivity?: string;
   curves: Slice[];

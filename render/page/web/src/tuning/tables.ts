@@ -32,8 +32,8 @@ function verdict({ text: values, is_default: keeps }: Best, analysis: Analysis, 
       h("strong", {}, "Keep the defaults"), `: ${values}.`);
   }
   if (!tuned) {
-    return h("p", { "data-resolved": String(analysis.resolved) },
-      h("strong", {}, analysis.resolved ? `Best values: ${values}.` : `Least objective, not resolved: ${values}.`));
+    return h("p", { "data-standing": analysis.standing },
+      h("strong", {}, `${analysis.standing === "best" ? "Best values" : analysis.standing.replace("least", "Least objective")}: ${values}.`));
   }
   const held = analysis.held_out ?? { verdict: "undecided", text: "not validated: these values were not run on the held-out sequences" };
   return h("p", { class: `verdict ${held.verdict.replaceAll(" ", "-")}`, "data-verdict": held.verdict },
