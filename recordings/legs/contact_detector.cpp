@@ -99,20 +99,27 @@ bool ContactDetector::contradicts_sign(const FootLoads& loads) const {
   return false;
 }
 
+Result<ContactThreshold> learn_contact_threshold(const std::vector<FootLoads>& loads,
+                                                 std::size_t leg) {
+  std::vector<double> logarithms;
+  for (const FootLoads& each : loads) {
+    if (std::isfinite(each[leg])) logarithms.push_back(std::log1p(std::abs(each[leg])));
+  }
+  if (logarithms.size() < kMinLoads) {
+    return failure(fmt::format("{}: expected at least {} loads, found {}", kFeet[leg], kMinLoads,
+                               logarithms.size()));
+  }
+  const auto learned = learn_threshold(std::move(logarithms));
+  if (!learned) return failure(fmt::format("{}: {}", kFeet[leg], learned.error().message));
+  return learned;
+}
+
 Result<std::array<ContactThreshold, kLegCount>> learn_contact_thresholds(
     const std::vector<FootLoads>& loads) {
   std::array<ContactThreshold, kLegCount> thresholds;
   for (std::size_t leg = 0; leg < thresholds.size(); ++leg) {
-    std::vector<double> logarithms;
-    for (const FootLoads& each : loads) {
-      if (std::isfinite(each[leg])) logarithms.push_back(std::log1p(std::abs(each[leg])));
-    }
-    if (logarithms.size() < kMinLoads) {
-      return failure(fmt::format("{}: expected at least {} loads, found {}", kFeet[leg], kMinLoads,
-                                 logarithms.size()));
-    }
-    const auto learned = learn_threshold(std::move(logarithms));
-    if (!learned) return failure(fmt::format("{}: {}", kFeet[leg], learned.error().message));
+    const auto learned = learn_contact_threshold(loads, leg);
+    if (!learned) return tl::unexpected(learned.error());
     thresholds[leg] = *learned;
   }
   return thresholds;

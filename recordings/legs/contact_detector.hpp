@@ -36,13 +36,17 @@ class ContactDetector {
   std::array<bool, kLegCount> contact_{};
 };
 
-/// Thresholds from loads without calibration. The logarithms of 1 + load of each foot are divided
+/// Threshold from loads of a foot without calibration. The logarithms of 1 + load are divided
 /// into two classes of least variance within (Otsu 1979). The thresholds lie a tenth of the
 /// distance of the means above and below their middle. Error, naming the foot, where the loads are
 /// not of two classes: each needs a twentieth of the loads, and the means 3.7 times the spread
 /// within (equally spread loads have 3.5 times, a bell-shaped distribution 2.7 times). The upper
 /// mean must be 1.5 times the lower: a robot that shifts its weight while it stands, or whose loads
 /// have few digits, has two classes too.
+Result<ContactThreshold> learn_contact_threshold(const std::vector<FootLoads>& loads,
+                                                 std::size_t leg);
+
+/// The same of all feet.
 Result<std::array<ContactThreshold, kLegCount>> learn_contact_thresholds(
     const std::vector<FootLoads>& loads);
 

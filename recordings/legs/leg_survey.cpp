@@ -15,6 +15,8 @@ namespace {
 
 constexpr std::size_t kMaxListed = 200;  ///< of names in messages [bytes]
 constexpr double kLargeAngle = 6.5;      ///< of no joint of a leg [rad]
+/// Feet that may be without a threshold of contact: three others carry the estimate.
+constexpr std::size_t kMostUnknownFeet = 1;
 
 }  // namespace
 
@@ -223,23 +225,30 @@ ContactRule LegSurvey::rule_of(double threshold) const {
 }
 
 Result<ContactRule> LegSurvey::learned_rule(ReadingNotes& notes) const {
-  const auto thresholds = learn_contact_thresholds(loads_);
-  if (!thresholds) {
-    return failure(
-        fmt::format("topic '{}', field '{}': no threshold of contact can be learned: {}; "
-                    "set contact_detection: threshold with contact_threshold",
-                    topics_.contacts, contact_field_, thresholds.error().message));
-  }
+  ContactRule rule = rule_of(std::numeric_limits<double>::infinity());
+  std::vector<std::string> unknown;
   std::string list;
-  for (const ContactThreshold& each : *thresholds) {
-    list += fmt::format("{}{:.1f}/{:.1f}", list.empty() ? "" : ", ", each.begin, each.end);
+  for (std::size_t leg = 0; leg < rule.thresholds.size(); ++leg) {
+    const auto learned = learn_contact_threshold(loads_, leg);
+    list += list.empty() ? "" : ", ";
+    list += learned ? fmt::format("{:.1f}/{:.1f}", learned->begin, learned->end) : "-";
+    if (learned) rule.thresholds[leg] = *learned;
+    if (!learned) unknown.push_back(learned.error().message);
+  }
+  const std::string where = fmt::format(
+      "topic '{}', field '{}': no threshold of contact can be "
+      "learned: {}",
+      topics_.contacts, contact_field_, fmt::join(unknown, "; "));
+  if (unknown.size() > kMostUnknownFeet) {
+    return failure(where + "; set contact_detection: threshold with contact_threshold");
+  }
+  if (!unknown.empty()) {
+    notes.warn("contacts of a foot not learned", where + "; no contact of this foot is used");
   }
   notes.push_back(
       fmt::format("{}: contacts begin/end at '{}' of {} (FL, FR, RL, RR), learned from "
                   "{} messages (contact_detection)",
                   topics_.contacts, contact_field_, list, loads_.size()));
-  ContactRule rule = rule_of(0.0);
-  rule.thresholds = *thresholds;
   return rule;
 }
 

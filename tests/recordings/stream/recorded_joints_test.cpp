@@ -180,6 +180,20 @@ TEST_F(RecordedTrot, LoadsThatTurnNegativeLaterAreNoContacts) {
   EXPECT_FALSE(detector.contradicts_sign({60.0, -60.0, -60.0, -60.0}));
 }
 
+// Loads are a hint: three feet carry the estimate.
+TEST_F(RecordedTrot, AFootWhoseLoadTellsNothingIsLeftOut) {
+  RecordingConfig config;
+  config.contact_detection = ContactDetection::kLearned;
+  const Recording one = read({.dead = {2}}, config);
+  EXPECT_TRUE(one.noted("RL: all loads are equal; no contact of this foot is used"));
+  const auto legs = test::legs_of(one.deliveries);
+  EXPECT_TRUE(std::ranges::none_of(legs, [](const auto& each) { return each.contact[2]; }));
+  EXPECT_TRUE(std::ranges::any_of(legs, [](const auto& each) { return each.contact[0]; }));
+  EXPECT_NEAR(speed(one), speed(read({}, config)), 0.05);
+  const Recording two = read({.dead = {1, 2}}, config);
+  EXPECT_NE((two.error + two.setup.leg_lack).find("contact_threshold"), std::string::npos);
+}
+
 TEST_F(RecordedTrot, LegsInMessagesOfTheirOwnAreNamed) {
   const Recording one = read({.legs = {0, 0, 0, 0}});
   EXPECT_TRUE(one.noted("each message holds the joints of one leg")) << one.error;

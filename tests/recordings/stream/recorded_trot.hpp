@@ -25,6 +25,7 @@ struct TrotOptions {
   double knee_sign = 1.0;
   float load = 60.0F;  ///< of a foot that stands
   float lifted = 0.0F;
+  std::set<int> dead = {};  ///< feet whose load is lost
   int lost = 0;             ///< of so many messages of the joints one
   std::string single = {};  ///< each leg has messages of its own: their topic, with {} for the leg
   std::set<int> absent = {};  ///< legs that have no messages
@@ -88,8 +89,9 @@ class RecordedTrot : public RecordingTest {
         message.put(std::uint32_t{0});
         message.length(std::size_t{kLegCount});
         for (const int leg : options.feet) {
-          message.put(trot.contact(time)[static_cast<std::size_t>(leg)] ? options.load
-                                                                        : options.lifted);
+          const bool stands =
+              trot.contact(time)[static_cast<std::size_t>(leg)] && !options.dead.contains(leg);
+          message.put(stands ? options.load : options.lifted);
         }
         batch.push_back([&robot, &recorded, forces, message] {
           robot.add("/foot_forces", forces, recorded, message);
