@@ -205,6 +205,21 @@ ErrorMatrix initial_covariance(const InitializationConfig& config, double sigma_
   return P;
 }
 
+/// The means from sample `begin` on to the end of an interval that is known to be static: by the
+/// mean of its first samples alone noise would pass for motion.
+StaticInterval averaged_from(std::span<const ImuSample> samples, std::size_t begin,
+                             const StaticInterval& known) {
+  StaticInterval interval;
+  interval.end = known.end;
+  interval.moved = known.moved;
+  for (std::size_t i = begin; i < samples.size() && samples[i].stamp <= known.end; ++i) {
+    ++interval.count;
+    interval.rate += (samples[i].angular_velocity - interval.rate) / interval.count;
+    interval.force += (samples[i].specific_force - interval.force) / interval.count;
+  }
+  return interval;
+}
+
 /// The belief at the end of `interval`, or at the newest sample when it is too short for a tilt.
 /// The mean rate is the gyro bias only with `gyro_bias_measured`: otherwise the body may sway.
 InitialBelief begin_with(std::span<const ImuSample> samples, const StaticInterval& interval,
@@ -269,7 +284,7 @@ std::optional<InitialBelief> initialize_static(std::span<const ImuSample> sample
     // Only the end of a long interval is averaged: before it the robot settles.
     const Time averaged = best.end - from_seconds((1.0 - kSettling) * config.duration);
     while (samples[begin].stamp < averaged) ++begin;
-    best = static_interval_from(samples, begin, noise, gravity);
+    best = averaged_from(samples, begin, best);
   }
   const bool still_standing = best.count > 0 && !best.moved;
   if (span < from_seconds(config.duration) && still_standing) return std::nullopt;
