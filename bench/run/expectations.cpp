@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bench/metrics/statistics.hpp"
+#include "bench/scoring/score_statistics.hpp"
 #include "core/shell_word.hpp"
 #include "estimator/estimator_spec.hpp"
 
@@ -47,14 +48,12 @@ bool is_accuracy(const std::string& score) {
                                             !is_timing(score) && !score.starts_with("health."));
 }
 
-/// The score of a run. Where the estimator failed or its estimate lacks a part, the success is lost
-/// and errors are none.
 std::optional<double> value_of(const RunRecord& run, const Expectation& expectation) {
   const std::string& estimator = expectation.estimator;
   const std::string& score = expectation.score;
   if (estimator.empty()) return find_run_score(run, score);
-  if (!is_partial(run, estimator) || !is_accuracy(score)) return find_score(run, estimator, score);
-  return score.starts_with(kSuccessKey) ? std::optional(0.0) : std::nullopt;
+  return is_accuracy(score) ? compared_score(run, estimator, score)
+                            : find_score(run, estimator, score);
 }
 
 ExpectationCheck check_one(const Expectation& expectation, std::span<const RunRecord> runs) {

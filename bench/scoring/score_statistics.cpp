@@ -175,18 +175,13 @@ std::vector<double> ScorePairs::differences() const {
   return differences;
 }
 
-namespace {
-
-/// The score; a run that lacks a part of the estimate is a lost success and has no other.
-std::optional<double> paired_value(const RunRecord& run, const std::string& estimator,
-                                   const std::string& key) {
+std::optional<double> compared_score(const RunRecord& run, const std::string& estimator,
+                                     const std::string& key) {
   if (!is_partial(run, estimator)) return find_score(run, estimator, key);
   const bool is_success =
       std::ranges::any_of(success_scores(), [&](const Score& each) { return each.key == key; });
   return is_success ? std::optional(0.0) : std::nullopt;
 }
-
-}  // namespace
 
 ScorePairs paired(const EstimatorRuns& reference, const EstimatorRuns& other,
                   const std::string& key) {
@@ -194,8 +189,8 @@ ScorePairs paired(const EstimatorRuns& reference, const EstimatorRuns& other,
   for (const RunRecord& a : reference.runs) {
     for (const RunRecord& b : other.runs) {
       if (a.seed != b.seed || !is_valid_run(a) || !is_valid_run(b)) continue;
-      const auto first = paired_value(a, reference.estimator, key);
-      const auto second = paired_value(b, other.estimator, key);
+      const auto first = compared_score(a, reference.estimator, key);
+      const auto second = compared_score(b, other.estimator, key);
       if (!first || !second) continue;
       pairs.reference.push_back(*first);
       pairs.value.push_back(*second);

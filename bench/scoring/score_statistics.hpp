@@ -87,6 +87,11 @@ SuccessRate success_rate(std::span<const RunRecord> runs, const std::string& est
 std::optional<bool> succeeds(const RunRecord& run, const std::string& estimator,
                              const std::string& key = kSuccessKey);
 
+/// The score as it counts beside those of others: a run that lacks a part of the estimate
+/// (`is_partial`) is a lost success and has no other.
+std::optional<double> compared_score(const RunRecord& run, const std::string& estimator,
+                                     const std::string& key);
+
 /// Values of one score in pairs of runs on the same seed.
 struct ScorePairs {
   std::vector<double> reference;

@@ -369,12 +369,12 @@ Result<void> check_direction(const std::string& key, const std::string& score) {
 Objective objective_for(Objective objective, const ResponseTable& table) {
   if (!objective.relative) return objective;
   const auto& defaults = table.default_runs;
-  objective.without_ratio = std::ranges::any_of(cases_of(table, ""), [&](std::size_t i) {
-    return i < defaults.size() && defaults[i].value && !(*defaults[i].value > 0.0);
-  });
-  objective.lost_defaults = std::ranges::any_of(cases_of(table, ""), [&](std::size_t i) {
-    return i < defaults.size() && !defaults[i].value && defaults[i].diverged;
-  });
+  for (const std::size_t i : cases_of(table, "")) {
+    if (i >= defaults.size()) continue;
+    const RunScore& run = defaults[i];
+    objective.without_ratio = objective.without_ratio || (run.value && !(*run.value > 0.0));
+    objective.lost_defaults = objective.lost_defaults || (!run.value && run.diverged);
+  }
   objective.relative = !defaults.empty() && !objective.without_ratio;
   return objective;
 }

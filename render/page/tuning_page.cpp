@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -197,18 +198,18 @@ std::map<std::string, double> numbers_in(const JobResult& result) {
   return numbers;
 }
 
-/// The sequences on which the points of an estimator are compared (`cases_of`).
-using Compared = std::set<std::pair<std::string, std::uint64_t>>;
+/// Per estimator, the scenarios and seeds on which its points are compared (`cases_of`).
+using Compared = std::set<std::tuple<std::string, std::string, std::uint64_t>>;
 
-Result<Compared> compared_in(const MergedSweep& units, const std::string& estimator) {
+Result<Compared> compared_in(const MergedSweep& units) {
   Compared compared;
   if (units.jobs.empty()) return compared;
   const auto responses = sweep_responses(units, kSuccessKey);
   if (!responses) return tl::unexpected(responses.error());
   for (const SweepResponse& each : *responses) {
-    if (each.estimator != estimator) continue;
     for (const std::size_t i : cases_of(each.table, "")) {
-      compared.emplace(each.table.cases[i].scenario, each.table.cases[i].seed);
+      const ResponseCase& on = each.table.cases[i];
+      compared.emplace(each.estimator, on.scenario, on.seed);
     }
   }
   return compared;
@@ -224,6 +225,7 @@ Json rows_json(const EstimatorRows& own, const std::vector<ResponseCase>& sequen
                const ComparedOf& compared, const std::vector<std::string>& scores, PageData& page) {
   std::vector<double> point, sequence, values;
   std::vector<std::uint8_t> outcome, diverged, held_out, is_compared;
+  const std::string name = text_of(own.estimator);
   for (const Row& row : own.rows) {
     point.push_back(static_cast<double>(row.point));
     sequence.push_back(static_cast<double>(row.sequence));
@@ -233,7 +235,7 @@ Json rows_json(const EstimatorRows& own, const std::vector<ResponseCase>& sequen
     held_out.push_back(row.held_out ? 1 : 0);
     const ResponseCase& on = sequences[row.sequence];
     const Compared& with = row.held_out ? compared.held_out : compared.tuned;
-    is_compared.push_back(with.contains({on.scenario, on.seed}) ? 1 : 0);
+    is_compared.push_back(with.contains({name, on.scenario, on.seed}) ? 1 : 0);
     const auto known = invalid ? std::map<std::string, double>() : numbers_in(row.result);
     for (const std::string& key : scores) {
       const auto found = known.find(key);
@@ -286,15 +288,15 @@ Json looked_json(const fs::path& folder) {
 Result<Json> estimators_json(const TuningSource& source, const VariedParameters& varied,
                              const Collected& all, const std::vector<std::string>& scores,
                              PageData& page) {
+  auto tuned = compared_in(source.units);
+  if (!tuned) return tl::unexpected(tuned.error());
+  auto held_out = compared_in(source.held_out);
+  if (!held_out) return tl::unexpected(held_out.error());
+  const ComparedOf compared{std::move(*tuned), std::move(*held_out)};
   Json json = Json::array();
   for (const EstimatorRows& own : all.estimators) {
     const auto defaults = default_values(own.estimator, varied);
     if (!defaults) return tl::unexpected(defaults.error());
-    auto tuned = compared_in(source.units, text_of(own.estimator));
-    if (!tuned) return tl::unexpected(tuned.error());
-    auto held_out = compared_in(source.held_out, text_of(own.estimator));
-    if (!held_out) return tl::unexpected(held_out.error());
-    const ComparedOf compared{std::move(*tuned), std::move(*held_out)};
     auto analyses = analyses_json(source, text_of(own.estimator), own.points, page);
     if (!analyses) return analyses;
     json.push_back({{"name", text_of(own.estimator)},
