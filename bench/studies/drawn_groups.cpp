@@ -177,9 +177,9 @@ std::string groups_legend(const std::vector<DrawnGroup>& groups) {
 }
 
 CsvTable groups_csv(const std::vector<DrawnGroup>& groups) {
-  std::vector<std::string> header = {"scenario",  "group", "low",       "high",
-                                     "estimator", "runs",  "successes", "successes_1_percent",
-                                     "invalid"};
+  std::vector<std::string> header = {"scenario",  "group",  "low",       "high",
+                                     "estimator", "runs",   "successes", "successes_1_percent",
+                                     "partial",   "invalid"};
   for (const Score& score : headline_scores()) {
     header.push_back(std::string(score.key) + ".median");
   }
@@ -194,6 +194,7 @@ CsvTable groups_csv(const std::vector<DrawnGroup>& groups) {
           .add(static_cast<std::int64_t>(each.runs))
           .add(static_cast<std::int64_t>(each.successes))
           .add(static_cast<std::int64_t>(each.strict.count))
+          .add(static_cast<std::int64_t>(each.partial))
           .add(static_cast<std::int64_t>(group.invalid));
       for (const auto& median : each.medians) table.add(median);
       table.end_row();
@@ -211,6 +212,7 @@ Json groups_json(const std::vector<DrawnGroup>& groups, const std::string& key,
     for (const GroupScores& each : group.estimators) {
       Json& entry = estimators[each.estimator] =
           success_json({each.successes, each.runs}, each.strict);
+      entry["partial"] = each.partial;
       entry["median"] = Json::object();
       for (std::size_t i = 0; i < kHeadlineCount; ++i) {
         entry["median"][std::string(headline_scores()[i].key)] = json_of(each.medians[i]);

@@ -186,10 +186,11 @@ TextTable fault_table(const std::vector<FaultCase>& cases) {
 
 Result<void> write_faults(const std::vector<FaultCase>& cases, const std::string& sequence,
                           const std::filesystem::path& folder) {
-  CsvTable csv({"fault", "estimator", "success", "ate_m", "worst_state", "first_alarm_s", "reasons",
-                "alarm_fraction", "silent"});
+  CsvTable csv({"fault", "estimator", "success", "partial", "ate_m", "worst_state", "first_alarm_s",
+                "reasons", "alarm_fraction", "silent"});
   for (const FaultCase& each : cases) {
-    csv.add(each.fault).add(each.estimator).add(each.success).add(each.ate_m);
+    csv.add(each.fault).add(each.estimator).add(each.success).add(each.partial);
+    csv.add(each.ate_m);
     csv.add(state_text(each)).add(each.first_alarm_s).add(each.reasons);
     csv.add(each.alarm_fraction).add(each.silent);
     csv.end_row();

@@ -99,12 +99,17 @@ std::string text_of(const BestPoint& best, const ResponseTable& table) {
   return best.is_default() ? "no point is better than the defaults: " + values : values;
 }
 
-std::string standing_of(const BestPoint& best, const Effect& effect) {
+bool is_resolved(const BestPoint& best, const Effect& effect) {
   const bool beyond_noise =
       best.is_default() || !best.gain_interval.low || *best.gain_interval.low > 0.0;
-  if (!effect.tells_best() || !beyond_noise) return "least, not resolved";
+  return effect.tells_best() && beyond_noise;
+}
+
+std::string standing_of(const BestPoint& best, const Effect& effect) {
+  if (best.is_default()) return kKeepDefaults;
+  if (!is_resolved(best, effect)) return "least, not resolved";
   const bool small = effect.small || (best.gain && *best.gain <= kMinChange);
-  return !best.is_default() && small ? "least, too little to matter" : kBestStanding;
+  return small ? "least, too little to matter" : kBestStanding;
 }
 
 Result<BestPoint> best_point(const ResponseTable& table, const Objective& objective) {

@@ -34,11 +34,16 @@ struct BestPoint {
   bool is_default() const { return point == kDefaults; }
 };
 
-/// What the point is: "best", where points differ by more than seeds do and, unless it has the
-/// defaults, the interval of its gain over them excludes zero; else "least, not resolved", or "least,
-/// too little to matter" of a gain that comparisons call small.
+/// Whether points differ by more than seeds do and, unless the best has the defaults, the interval
+/// of its gain over them excludes zero.
+bool is_resolved(const BestPoint& best, const Effect& effect);
+
+/// What the point is: of the defaults "least: keep the defaults"; else "best" where it is resolved,
+/// "least, not resolved" where not, "least, too little to matter" of a gain that comparisons call
+/// small.
 std::string standing_of(const BestPoint& best, const Effect& effect);
 inline constexpr const char* kBestStanding = "best";
+inline constexpr const char* kKeepDefaults = "least: keep the defaults";
 
 /// The point with the least objective over the cases; of those alike but for rounding the one next
 /// to the defaults, themselves first. None when none has an objective.

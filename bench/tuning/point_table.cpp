@@ -59,14 +59,14 @@ PointSummary summary_of(const ResponseTable& table, const Objective& objective, 
 std::vector<PointSummary> summaries_of(const SweepResponse& response, const Objective& objective) {
   const ResponseTable& table = response.table;
   const auto best = best_point(table, objective);
-  const std::string standing = best ? standing_of(*best, effect_of(table, objective)) : "";
+  const Effect effect = effect_of(table, objective);
+  const std::string standing = best ? standing_of(*best, effect) : "";
   std::vector<PointSummary> summaries;
   const auto add = [&](std::size_t point) {
     summaries.push_back(summary_of(table, objective, point));
     summaries.back().is_best = best && best->point == point;
-    summaries.back().is_resolved = standing == kBestStanding;
-    summaries.back().best_mark =
-        is_inside(table, summaries.back().values) ? " " + standing : " least, outside the ranges";
+    summaries.back().is_resolved = best && is_resolved(*best, effect);
+    summaries.back().best_mark = " " + standing;
   };
   if (!table.default_runs.empty()) add(kDefaults);
   for (std::size_t k = 0; k < table.points.size(); ++k) {

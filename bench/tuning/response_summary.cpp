@@ -130,6 +130,8 @@ std::string best_markdown(const ResponseTable& table, const Objective& objective
 
 /// "Least objective, not resolved" of "least, not resolved".
 std::string heading_of(const std::string& standing) {
+  if (standing == kBestStanding) return "Best values";
+  if (standing == kKeepDefaults) return "Keep the defaults";
   return "Least objective" + standing.substr(standing.find(','));
 }
 
@@ -240,11 +242,8 @@ std::string response_markdown(const ResponseTable& table, const Objective& objec
                                : Result<Sensitivity>(failure(why_no_indices_of_one(effect)));
   std::string text =
       fmt::format("Objective: {}.\n{}", text_of(objective), best_markdown(table, objective, *best));
-  const bool outside = best->is_default() && !is_inside(table, table.defaults);
-  const std::string standing = standing_of(*best, effect);
-  const bool known = standing == kBestStanding || outside;  // the effect is that of the ranges
-  text += fmt::format("{}: {}.\n{}", known ? "Best values" : heading_of(standing),
-                      text_of(*best, table), gain_markdown(*best));
+  text += fmt::format("{}: {}.\n{}", heading_of(standing_of(*best, effect)), text_of(*best, table),
+                      gain_markdown(*best));
   for (const std::string& line : left_out_lines(table)) text += fmt::format("- {}\n", line);
   for (const std::string& line : failed_lines(table)) text += fmt::format("- {}\n", line);
   const std::size_t seeds = seeds_of(table).size();

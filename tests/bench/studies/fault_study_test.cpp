@@ -144,7 +144,7 @@ TEST(FaultTable, NamesFailuresAndCountsThoseThatNobodyNotices) {
   FaultCase silent = fine;
   silent.fault = "imu.dead";
   silent.success = false;
-  silent.silent = true;
+  silent.silent = silent.partial = true;
   FaultCase ended = silent;
   ended.fault = "lidar.dead";
   ended.silent = false;
@@ -152,12 +152,15 @@ TEST(FaultTable, NamesFailuresAndCountsThoseThatNobodyNotices) {
   const std::vector<FaultCase> cases = {fine, silent, ended};
   const TextTable table = fault_table(cases);
   EXPECT_EQ(table.rows[0][1], "0.10 healthy");
-  EXPECT_EQ(table.rows[1][1], "SILENT 0.10 healthy");
+  EXPECT_EQ(table.rows[1][1], "SILENT 0.10 part healthy");
   EXPECT_EQ(table.rows[2][1], "failed with an error");
   const TemporaryFolder folder;
   ASSERT_TRUE(write_faults(cases, "walk seed 1", folder.path()));
   EXPECT_NE(read_file(folder.path() / "faults.md")->find("1 of 3 cases fail unnoticed (SILENT)"),
             std::string::npos);
+  EXPECT_NE(read_file(folder.path() / "faults.csv")->find("imu.dead,mine,false,true,0.1"),
+            std::string::npos)
+      << *read_file(folder.path() / "faults.csv");
 }
 
 }  // namespace

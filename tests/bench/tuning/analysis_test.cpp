@@ -181,6 +181,8 @@ TEST(BestPoint, AreTheDefaultsWhereNoPointIsBetter) {
   EXPECT_NE(text.find("no point is better than the defaults: a 3 as by default"), std::string::npos)
       << text;
   EXPECT_EQ(text.find("Reduction"), std::string::npos) << text;
+  EXPECT_NE(text.find("Keep the defaults: no point is better"), std::string::npos) << text;
+  EXPECT_EQ(standing_of(*best, effect_of(table, absolute())), "least: keep the defaults");
 }
 
 TEST(BestPoint, OfAThousandthLessIsNotAReductionByZero) {

@@ -84,10 +84,19 @@ test("a gap breaks the curve, is named as such, and is no loss", () => {
   assert.ok(page.thin(track, 3).some((i) => Number.isNaN(track.error[i])));
   assert.equal(page.lossOf(track), null);
   assert.equal(page.missingText(data, "a"), "has no poses for 12 s, from 40 s on");
+  const sparse = walk({ a: (x) => [x % 5 === 0 ? x : NaN, 0] });
+  sparse.scores.estimators.a = { ...sparse.scores.estimators.a, partial: true };
+  assert.equal(page.missingText(sparse, "a"), "has a pose every 5.0 s only");
   const { list, route } = page.findingsOf(data);
   assert.match(page.finding(list, route), /a has no poses for 12 s, from 40 s on\.$/);
   data.scores.estimators.a.diverged_reason = "error_limit";
   assert.equal(page.missingText(data, "a"), null);
+});
+
+test("a cursor in a gap has no value", () => {
+  const track = { times: Float32Array.of(0, 1, 5, 9, 10), values: Float32Array.of(1, 2, NaN, 3, 4) };
+  const at = (seconds) => page.valueAt(track, seconds);
+  assert.deepEqual([at(0.4), at(1), at(1.5), at(5), at(8.9), at(9), at(9.4)], [1, 2, NaN, NaN, NaN, 3, 3]);
 });
 
 test("a break reaches over the stamps of other curves", () => {

@@ -93,6 +93,10 @@ test("one that ended early on a seed is best of nothing, and keeps no length in 
   assert.match(await page.locator("#seeds .caption").innerText(), legend);
   assert.match(await cell(page, "one", "a").innerText(), /0\.0123 part/);
   assert.match(await page.locator("#matrix > div > .soft, #matrix .soft").first().innerText(), legend);
+  const bars = (seed) => page.locator(`#runs [data-run="one, seed ${seed}"] [data-estimator="a"]`).innerText();
+  assert.match(await bars(2), / part/);
+  assert.doesNotMatch(await bars(1), / part/);
+  assert.match(await page.innerText("#runs"), legend);
   await cell(page, "one", "a").locator("button").click();
   const details = page.locator(".cell-details");
   assert.match(await details.locator('tr[data-row="2"]').innerText(), /part/);

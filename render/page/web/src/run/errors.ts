@@ -149,16 +149,16 @@ export function mostOf(track: ErrorTrack, from = 0): number {
   return track.error.reduce((most, error, i) => (i >= from && error > most ? error : most), 0);
 }
 
-/** The longest stretch of the truth's time without poses: "for the first 12 s", "for 12 s, from 34 s on". */
+/** The longest stretch of the truth's time without poses: "has no poses for the first 12 s", "has no poses for 12 s, from 34 s on". */
 function longestHole(stamps: number[], first: number, last: number): string {
   const [start, end] = [stamps[0]! - first, last - stamps[stamps.length - 1]!];
-  let [longest, from] = [0, 0];
-  for (let i = 1; i < stamps.length; ++i) {
-    const step = stamps[i]! - stamps[i - 1]!;
-    if (step > longest) [longest, from] = [step, stamps[i - 1]!];
-  }
-  if (start >= Math.max(end, longest)) return `for the first ${start.toFixed(0)} s`;
-  return end >= longest ? `for the last ${end.toFixed(0)} s` : `for ${longest.toFixed(0)} s, from ${from.toFixed(0)} s on`;
+  const steps = stamps.slice(1).map((stamp, i) => stamp - stamps[i]!);
+  const longest = Math.max(0, ...steps);
+  const usual = steps.length > 0 ? [...steps].sort((a, b) => a - b)[steps.length >> 1]! : 0;
+  if (start >= Math.max(end, longest)) return `has no poses for the first ${start.toFixed(0)} s`;
+  if (end >= longest) return `has no poses for the last ${end.toFixed(0)} s`;
+  if (longest < 2 * usual) return `has a pose every ${usual.toFixed(1)} s only`;
+  return `has no poses for ${longest.toFixed(0)} s, from ${stamps[steps.indexOf(longest)]!.toFixed(0)} s on`;
 }
 
 /** What is missing of an estimate of a part of the run, e.g. "has no poses for 12 s, from 34 s on"; null: nothing. */
@@ -172,7 +172,7 @@ export function missingText(data: RunPayload, name: string): string | null {
   const isPartial = ["starts_late", "ends_early", "gap"].includes(String(at(own, "diverged_reason"))) || at(own, "partial") === true;
   if (!isPartial || !t || !p || !truth || truth.length === 0) return null;
   const stamps = [...t].filter((_, i) => Number.isFinite(p[3 * i]!));
-  return stamps.length === 0 ? null : `has no poses ${longestHole(stamps, truth[0]!, truth[truth.length - 1]!)}`;
+  return stamps.length === 0 ? null : longestHole(stamps, truth[0]!, truth[truth.length - 1]!);
 }
 
 /** At most `count` samples of a track, evenly, with the last one, and those of gaps. */

@@ -39,10 +39,12 @@ export function indexAt(times: ArrayLike<number> | null | undefined, seconds: nu
   return index >= 0 && Math.abs(times[index]! - seconds) <= reach(times) ? index : -1;
 }
 
-/** Value at an instant, NaN if there is none. */
-export function valueAt(item: Track, seconds: number): number {
-  const index = indexAt(item.times, seconds);
-  return index < 0 ? NaN : item.values[index]!;
+/** Value at an instant, NaN if there is none, also on both sides of the sample without a number that stands in a gap. */
+export function valueAt({ times, values }: Track, seconds: number): number {
+  const index = indexAt(times, seconds);
+  if (index < 0 || times[index] === seconds) return index < 0 ? NaN : values[index]!;
+  const other = values[index + (times[index]! < seconds ? 1 : -1)];
+  return other !== undefined && Number.isNaN(other) ? NaN : values[index]!;
 }
 
 /** Three numbers of a list of xyz, null if one has no value. */

@@ -5,7 +5,7 @@ import { choice } from "../charts/controls";
 import { seriesPaint } from "../charts/svg";
 import { h, section } from "../dom";
 import { formatNumber, isNumber, kNone } from "../format";
-import { failureMark } from "../outcome";
+import { failureMark, kPartLegend, partText } from "../outcome";
 import { seriesDash } from "../palette";
 import { estimatorsOf, failedOn, firstScore, styleOf, titleOf, type Run, type SuitePayload } from "./model";
 
@@ -19,11 +19,13 @@ interface Bar {
   diverged: boolean;
   at: number | null;
   reason: unknown;
+  /** The estimate lacks a part of the run. */
+  partial: boolean;
 }
 
 /** One that failed to run. */
 function failedBar(estimator: string, index: number): Bar {
-  return { estimator, index, value: null, diverged: true, at: null, reason: "failed" };
+  return { estimator, index, value: null, diverged: true, at: null, reason: "failed", partial: true };
 }
 
 function barsOf(run: Run, estimators: string[], score: string, styles?: (name: string) => number): Bar[] {
@@ -40,6 +42,7 @@ function barsOf(run: Run, estimators: string[], score: string, styles?: (name: s
         diverged: found["success"] === false,
         at: isNumber(at) ? at : null,
         reason: found["diverged_reason"],
+        partial: run.partial.includes(estimator),
       },
     ];
   });
@@ -98,7 +101,7 @@ function barRow(bar: Bar, at: (value: number) => number): HTMLElement {
     h(
       "span",
       { class: "small-value" },
-      bar.value === null && !bar.diverged ? kNone : bar.value === null ? "" : formatNumber(bar.value),
+      bar.value === null && !bar.diverged ? kNone : bar.value === null ? "" : partText(bar.value, bar.partial),
       bar.diverged ? h("b", {}, ` ${failureMark(bar.reason, bar.at)}`) : null,
     ),
   );
@@ -130,12 +133,14 @@ export function multiplesSection(data: SuitePayload): HTMLElement | null {
     const values = data.runs.flatMap((run) =>
       run.invalid ? [] : barsOf(run, estimators, score).flatMap((bar) => (bar.value === null ? [] : [Math.abs(bar.value)])));
     const scale = unitScale(values);
+    const isMarked = (run: Run) => barsOf(run, estimators, score).some((bar) => bar.partial && bar.value !== null);
+    const legend = data.runs.some((run) => !run.invalid && isMarked(run)) ? ` ${kPartLegend}` : "";
     const { title, unit } = titleOf(data.headline, score);
     words.textContent =
       values.length === 0
         ? `No run has a value of ${title}.`
         : `${title} [${unit}] of each run on one axis from ${formatNumber(scale.low)} to ` +
-      `${formatNumber(scale.high)}${scale.law}; worst first: most diverged estimators, then the largest value.`;
+      `${formatNumber(scale.high)}${scale.law}; worst first: most diverged estimators, then the largest value.${legend}`;
     charts.replaceChildren(
       ...(all ? ordered : ordered.slice(0, kShown)).map((run) =>
         chart(run, runBars(data, run, estimators, score), scale.at)),

@@ -103,7 +103,7 @@ export interface Analysis {
   effect?: string;
   why_no_best?: string;
   held_out: HeldOut | null;
-  /** What the best point is: "best", or "least, not resolved" or the like. */
+  /** What the best point is: "best", "least: keep the defaults", "least, not resolved" or the like. */
   standing: string;
   sensitivity: Sensitivity | null;
   why_no_sensitivity?: string;
