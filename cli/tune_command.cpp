@@ -92,9 +92,7 @@ void print_outcome(const TuneResult& result) {
   }
   const bool front = result.tables.size() > 1;
   print_out("{}", to_text(front ? front_table(result) : outcome_table(result)));
-  for (const Objective& each : result.task.plan.objectives) {
-    print_out("objective: {}\n", text_of(each));
-  }
+  for (const std::string& line : objective_lines(result)) print_out("{}\n", line);
   print_out("search: {}\n", search_text(result));
   for (const std::string& line : defaults_outside(result.task)) print_out("note: {}\n", line);
 }

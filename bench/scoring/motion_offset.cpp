@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/scoring/motion_offset.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -19,6 +21,8 @@ constexpr double kFinest = 1e-3;  ///< step of the search [s]
 constexpr double kLeastCorrelation = 0.9;
 constexpr double kLeastLead = 0.05;       ///< in correlation, over other offsets
 constexpr double kLeastDeviation = 0.02;  ///< of the speeds [m/s]
+constexpr double kLeastOffset = 0.2;      ///< of a hint [s]
+constexpr double kExplained = 0.5;        ///< of what the speeds lack to a correlation of 1
 
 /// The mean speed over `window` from that time on [m/s]; none where the poses do not cover it.
 std::optional<double> speed_from(const Trajectory& poses, Time at, Duration window) {
@@ -72,7 +76,20 @@ double top_of(double before, double at, double after) {
   return curvature < 0.0 ? 0.5 * (before - after) / curvature : 0.0;
 }
 
-}  // namespace
+/// The correlation of the estimate's speeds, on a grid of `kGrid`, with the true ones at that
+/// offset; 0 where they have nothing in common.
+double correlation_of(const std::vector<double>& speeds, Time first, const Trajectory& true_poses,
+                      double offset) {
+  std::vector<double> ours, theirs;
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
+    const Time at = first + static_cast<Time>(i) * kGrid + from_seconds(offset);
+    const auto speed = speed_from(true_poses, at, kWindow);
+    if (!speed) continue;
+    ours.push_back(speeds[i]);
+    theirs.push_back(*speed);
+  }
+  return ours.empty() ? 0.0 : correlation_at(ours, theirs, 0);
+}
 
 /// Of the offsets within `half` of `about` at which the estimate's speeds, on a grid of `kGrid`,
 /// correlate best with the true ones: the best one.
@@ -80,15 +97,7 @@ MotionOffset refined(const Trajectory& poses, const Trajectory& true_poses, doub
                      double half) {
   const std::vector<double> speeds = speeds_of(poses, kGrid);
   const auto correlation = [&](double offset) {
-    std::vector<double> ours, theirs;
-    for (std::size_t i = 0; i < speeds.size(); ++i) {
-      const Time at = poses.front().stamp + static_cast<Time>(i) * kGrid + from_seconds(offset);
-      const auto speed = speed_from(true_poses, at, kWindow);
-      if (!speed) continue;
-      ours.push_back(speeds[i]);
-      theirs.push_back(*speed);
-    }
-    return ours.empty() ? 0.0 : correlation_at(ours, theirs, 0);
+    return correlation_of(speeds, poses.front().stamp, true_poses, offset);
   };
   MotionOffset best{about, correlation(about)};
   const auto try_at = [&](double offset) {
@@ -106,6 +115,8 @@ MotionOffset refined(const Trajectory& poses, const Trajectory& true_poses, doub
   }
   return best;
 }
+
+}  // namespace
 
 std::optional<MotionOffset> motion_offset(const Trajectory& estimate, const Trajectory& truth) {
   const ValidPart valid_estimate(estimate), valid_truth(truth);
@@ -132,9 +143,22 @@ std::optional<MotionOffset> motion_offset(const Trajectory& estimate, const Traj
   const double lag =
       static_cast<double>(first + peak) + top_of(by_lag[at - 1], best, by_lag[at + 1]);
   const Duration starts = true_poses.front().stamp - poses.front().stamp;
-  const MotionOffset found = refined(poses, true_poses, to_seconds(starts) + lag * to_seconds(grid),
-                                     to_seconds(grid));
+  const MotionOffset found =
+      refined(poses, true_poses, to_seconds(starts) + lag * to_seconds(grid), to_seconds(grid));
   return found.correlation >= kLeastCorrelation ? std::optional(found) : std::nullopt;
+}
+
+std::optional<std::string> clock_offset_hint(const Trajectory& estimate, const Trajectory& truth) {
+  const auto found = motion_offset(estimate, truth);
+  if (!found || std::abs(found->seconds) < kLeastOffset) return std::nullopt;
+  const ValidPart poses(estimate), true_poses(truth);
+  const double as_given = correlation_of(speeds_of(poses.poses(), kGrid),
+                                         poses.poses().front().stamp, true_poses.poses(), 0.0);
+  if (1.0 - found->correlation > kExplained * (1.0 - as_given)) return std::nullopt;
+  return fmt::format(
+      "likely a clock offset: with --time-offset {:.2f} it stands and walks when the truth does "
+      "(their speeds correlate by {:.3f}, as given by {:.3f}); all scores compare other instants",
+      found->seconds, found->correlation, as_given);
 }
 
 }  // namespace aims

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "core/trajectory.hpp"
 
@@ -18,5 +19,9 @@ struct MotionOffset {
 /// nearly as well at an offset of more than 2 s from it: a robot that walks without a stop tells
 /// nothing.
 std::optional<MotionOffset> motion_offset(const Trajectory& estimate, const Trajectory& truth);
+
+/// Where an offset of 0.2 s or more halves what the speeds lack to a correlation of 1: that offset
+/// and the option that takes it away.
+std::optional<std::string> clock_offset_hint(const Trajectory& estimate, const Trajectory& truth);
 
 }  // namespace aims

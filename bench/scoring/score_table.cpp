@@ -258,10 +258,11 @@ std::string legend_of_tables(const std::vector<std::span<const RunRecord>>& tabl
       "ATE yaw, heading: after least squares over all positions, by translation and heading.\n"
       "ATE start, M_end, max |z|: aligned to the truth at {}.\n"
       "{}path error: mean over pieces of 5 to 100 m (KITTI). within 5 %, 1 %: position error of\n"
-      "the distance travelled so far. tracked: of the truth's time, poses at most {:g} s apart.\n",
+      "the distance travelled so far. tracked: of the truth's time, poses at most {:g} s "
+      "apart{}.\n",
       start,
       several ? "" : "ATE SE(3): least squares by translation and rotation (Umeyama, as evo).\n",
-      scoring.max_gap);
+      scoring.max_gap, several ? ", the least of the seeds" : "");
   const ScoreConfig usual;
   if (scoring.max_error_offset != usual.max_error_offset ||
       scoring.max_error_per_path != usual.max_error_per_path) {

@@ -125,7 +125,7 @@ void note_causes(const TrajectoryScores& result, std::vector<std::string>& notes
     const Trajectory& given = each.given.trajectory;
     for (const auto& hint :
          {frame_index_hint(given, truth), stamp_unit_hint(given, truth),
-          position_unit_hint(given, truth, result.scoring),
+          clock_offset_hint(given, truth), position_unit_hint(given, truth, result.scoring),
           world_hint(given, truth, result.scoring),
           body_frame_hint(given, truth, each.given.T_body_estimate, result.scoring)}) {
       if (hint) notes.push_back(fmt::format("{}: {}", each.given.name, *hint));

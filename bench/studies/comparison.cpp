@@ -18,9 +18,13 @@ namespace {
 
 constexpr double kSuccessLevel = 0.05;  ///< of McNemar's test
 
+/// Differences up to this fraction of what matters are of rounding.
+constexpr double kRounding = 1e-4;
+
 ChangeVerdict verdict_of(const std::vector<double>& differences, const PairedTest& test,
                          double floor) {
-  if (std::ranges::all_of(differences, [](double each) { return each == 0.0; })) {
+  if (std::ranges::all_of(differences,
+                          [&](double each) { return std::abs(each) <= kRounding * floor; })) {
     return ChangeVerdict::kSame;
   }
   if (differences.size() < kFewestPairs) return ChangeVerdict::kTooFew;

@@ -88,7 +88,7 @@ std::string expectations_markdown(const Suite& suite) {
                           reproducing_command(each.scenario, check));
     }
   }
-  if (count == 0) return "No scenario states any.\n";
+  if (count == 0) return "None applies to the estimators that ran.\n";
   return text.empty() ? fmt::format("All {} hold.\n", count) : text;
 }
 

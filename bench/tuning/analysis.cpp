@@ -100,9 +100,8 @@ std::string text_of(const BestPoint& best, const ResponseTable& table) {
 }
 
 bool is_resolved(const BestPoint& best, const Effect& effect) {
-  const bool beyond_noise =
-      best.is_default() || !best.gain_interval.low || *best.gain_interval.low > 0.0;
-  return effect.tells_best() && beyond_noise;
+  const bool gains = best.gain_interval.low && *best.gain_interval.low > 0.0;
+  return effect.tells_best() && (best.is_default() || best.defaults_diverged || gains);
 }
 
 std::string standing_of(const BestPoint& best, const Effect& effect) {

@@ -34,8 +34,8 @@ struct BestPoint {
   bool is_default() const { return point == kDefaults; }
 };
 
-/// Whether points differ by more than seeds do and, unless the best has the defaults, the interval
-/// of its gain over them excludes zero.
+/// Whether points differ by more than seeds do and, unless the best has the defaults or every run
+/// with these diverged, the interval of its gain over them excludes zero.
 bool is_resolved(const BestPoint& best, const Effect& effect);
 
 /// What the point is: of the defaults "least: keep the defaults"; else "best" where it is resolved,

@@ -170,7 +170,7 @@ PairedGain paired_gain(const ResponseTable& table, const Objective& planned, std
   result.sequences = cases.size();
   result.seeds = seeds.size();
   result.saved_seeds = static_cast<std::size_t>(std::ranges::count_if(seeds, [&](const auto& of) {
-    return std::ranges::none_of(of, [&](std::size_t i) { return table.runs[point][i].diverged; });
+    return std::ranges::any_of(of, [&](std::size_t i) { return !table.runs[point][i].diverged; });
   }));
   result.all_diverged = all_diverged(table);
   result.defaults_diverged = defaults_all_diverged(table);

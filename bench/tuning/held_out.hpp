@@ -15,7 +15,7 @@ namespace aims {
 struct PairedGain {
   std::size_t sequences = 0;    ///< on which both have an objective
   std::size_t seeds = 0;        ///< of those sequences, which are independent from seed to seed
-  std::size_t saved_seeds = 0;  ///< of them, those of which no run of the point diverged
+  std::size_t saved_seeds = 0;  ///< of them, those on which not every run of the point diverged
   std::optional<double> gain;   ///< reduction of the objective, as a fraction of the defaults'
   /// 95 %, of the gain: bootstrap over seeds, each with all its sequences and both runs of each;
   /// empty below `kFewestPairs` seeds.

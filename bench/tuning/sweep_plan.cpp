@@ -237,6 +237,46 @@ std::string fixed_text(EstimatorSpec spec, std::span<const ParameterRange> range
 
 namespace {
 
+/// The default of a range's key in a scenario, of these estimators the first that has the key.
+std::optional<std::string> default_text(const ParameterRange& range, const Scenario& scenario,
+                                        std::span<const EstimatorSpec> estimators) {
+  if (!range.of_estimator) {
+    Scenario copy = scenario;
+    const Fields fields = fields_of(copy);
+    const Parameter* parameter = fields.find(full_key(range));
+    return parameter == nullptr ? std::nullopt : std::optional(parameter->text());
+  }
+  for (const EstimatorSpec& spec : estimators) {
+    const auto config = config_with(spec, scenario.estimators);
+    if (!config) continue;
+    const Fields fields = fields_of(**config);
+    if (const Parameter* parameter = fields.find(range.key)) return parameter->text();
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Result<void> check_same_defaults(std::span<const std::shared_ptr<const Scenario>> scenarios,
+                                 std::span<const ParameterRange> ranges,
+                                 std::span<const EstimatorSpec> estimators) {
+  for (const ParameterRange& range : ranges) {
+    const auto first = default_text(range, *scenarios.front(), estimators);
+    for (const auto& scenario : scenarios.subspan(1)) {
+      const auto other = default_text(range, *scenario, estimators);
+      if (!first || !other || *first == *other) continue;
+      const std::string key = range.of_estimator ? "estimators.NAME." + range.key : full_key(range);
+      const std::string hint = fmt::format(", e.g. by --set {}={}", key, *first);
+      return failure(fmt::format(
+          "{}: {} is {} there and {} in {}; expected the same default values in all scenarios{}",
+          scenario->name, range.key, *other, *first, scenarios.front()->name, hint));
+    }
+  }
+  return {};
+}
+
+namespace {
+
 /// Error for two estimators that differ in nothing but what is varied: their points are the same.
 Result<void> check_different(const std::vector<EstimatorSpec>& estimators,
                              std::span<const ParameterRange> ranges) {
@@ -254,6 +294,19 @@ Result<void> check_different(const std::vector<EstimatorSpec>& estimators,
 
 }  // namespace
 
+Result<void> set_estimators(const SweepPlan& plan, EstimatorConfigs& configs) {
+  if (auto added = add_python_estimators(plan.estimators, configs); !added) return added;
+  Fields fields;
+  describe_estimators(fields, plan.estimators, configs);
+  for (const std::string& setting : plan.set) {
+    if (!setting.starts_with("estimators.")) continue;
+    const auto equals = setting.find('=');
+    auto done = assign(fields, setting.substr(0, equals), setting.substr(equals + 1));
+    if (!done) return done;
+  }
+  return {};
+}
+
 Result<std::vector<Job>> plan_jobs(const SweepPlan& plan, const fs::path& folder) {
   const auto estimators = estimators_of(plan);
   if (!estimators) return tl::unexpected(estimators.error());
@@ -267,6 +320,15 @@ Result<std::vector<Job>> plan_jobs(const SweepPlan& plan, const fs::path& folder
   if (!ranges) return tl::unexpected(ranges.error());
   if (auto different = check_different(*estimators, *ranges); !different) {
     return tl::unexpected(different.error());
+  }
+  auto plain = std::make_shared<Scenario>(*scenarios->front());
+  plain->name = "the program";
+  plain->estimators = {};
+  if (auto set = set_estimators(plan, plain->estimators); !set) return tl::unexpected(set.error());
+  Scenarios compared = {std::move(plain)};
+  compared.insert(compared.end(), scenarios->begin(), scenarios->end());
+  if (auto same = check_same_defaults(compared, *ranges, *estimators); !same) {
+    return tl::unexpected(same.error());
   }
   std::vector<Job> jobs;
   std::set<std::string> ids;

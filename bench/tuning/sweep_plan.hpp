@@ -45,6 +45,15 @@ Result<std::vector<std::shared_ptr<const Scenario>>> plan_scenarios(
     std::span<const std::string> scenarios, std::span<const std::string> tags,
     std::span<const std::string> settings, const std::filesystem::path& folder);
 
+/// Error where a key of the ranges has another default value in one of the scenarios, so that no
+/// point has the defaults of all.
+Result<void> check_same_defaults(std::span<const std::shared_ptr<const Scenario>> scenarios,
+                                 std::span<const ParameterRange> ranges,
+                                 std::span<const EstimatorSpec> estimators);
+
+/// The plan's classes in Python, and what it sets of its estimators, on top of `configs`.
+Result<void> set_estimators(const SweepPlan& plan, EstimatorConfigs& configs);
+
 /// The plan's jobs: by scenario, varied values of the simulation, seed, estimator, point, so that
 /// those on one sequence stand together; none twice (points of a whole number may round to one, and
 /// one may be the default). Error for a range, estimator or scenario that is not right, a value

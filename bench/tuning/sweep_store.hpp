@@ -34,7 +34,7 @@ struct MergedSweep {
   std::vector<MergedJob> jobs;  ///< in the order of the plans; each id once
   std::vector<std::string> plans;
   std::size_t repeated = 0;  ///< jobs that failed in one folder and are done in another: done
-  std::size_t others = 0;  ///< results in the folders that are of no listed job, left out
+  std::size_t others = 0;    ///< results in the folders that are of no listed job, left out
 
   std::size_t count(std::string_view outcome) const;
 };

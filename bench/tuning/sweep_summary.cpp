@@ -123,7 +123,7 @@ Result<SweepResponse> response_of(const Collected& collected, const VariedParame
     }
   }
   find_default_runs(table);
-  if (response.incomplete == 0) add_default_point(table);
+  add_default_point(table);
   return response;
 }
 
@@ -144,17 +144,7 @@ Result<VariedParameters> varied_in(const MergedSweep& sweep) {
       if (!known) varied.ranges.push_back(std::move(range));
     }
     add_planned(plan.estimators, varied.planned);
-    if (auto added = add_python_estimators(plan.estimators, varied.base); !added) {
-      return tl::unexpected(added.error());
-    }
-    Fields fields;
-    describe_estimators(fields, plan.estimators, varied.base);
-    for (const std::string& setting : plan.set) {
-      if (!setting.starts_with("estimators.")) continue;
-      const auto equals = setting.find('=');
-      const auto done = assign(fields, setting.substr(0, equals), setting.substr(equals + 1));
-      if (!done) return tl::unexpected(done.error());
-    }
+    if (auto set = set_estimators(plan, varied.base); !set) return tl::unexpected(set.error());
   }
   if (varied.ranges.empty()) return failure("the sweep varies nothing: no range in its plan");
   for (const MergedJob& job : sweep.jobs) {

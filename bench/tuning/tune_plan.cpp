@@ -122,6 +122,11 @@ Result<void> add_held_out(const Scenarios& tuned, const std::vector<std::uint64_
     const auto others = plan_scenarios(held.scenarios, held.tags, task.plan.set, folder);
     if (!others) return failure("held_out: " + others.error().message);
     if (auto right = check_seeds(*others, seeds); !right) return right;
+    Scenarios compared = {tuned.front()};
+    compared.insert(compared.end(), others->begin(), others->end());
+    if (auto same = check_same_defaults(compared, task.ranges, {&task.estimator, 1}); !same) {
+      return failure("held_out: " + same.error().message);
+    }
     add_sequences(*others, seeds, task.held_out);
   }
   const std::set<std::string> tuned_on = ids_of(task.sequences);
@@ -135,18 +140,9 @@ Result<void> add_held_out(const Scenarios& tuned, const std::vector<std::uint64_
 }
 
 Result<void> check_defaults(const TuneTask& task) {
-  for (const ScenarioSeed& sequence : task.sequences) {
-    const auto values = default_values(task, *sequence.scenario);
-    if (!values) return tl::unexpected(values.error());
-    for (std::size_t i = 0; i < task.ranges.size(); ++i) {
-      if ((*values)[i] == task.defaults[i]) continue;
-      return failure(fmt::format(
-          "{}: {} is {} there and {} in {}; expected the same default values in all scenarios",
-          sequence.scenario->name, task.ranges[i].key, (*values)[i], task.defaults[i],
-          task.sequences.front().scenario->name));
-    }
-  }
-  return {};
+  Scenarios scenarios;
+  for (const ScenarioSeed& sequence : task.sequences) scenarios.push_back(sequence.scenario);
+  return check_same_defaults(scenarios, task.ranges, {&task.estimator, 1});
 }
 
 }  // namespace

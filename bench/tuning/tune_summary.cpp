@@ -85,9 +85,7 @@ std::string markdown_of(const TuneResult& result) {
       text += fmt::format("**On the sequences tuned on, {}.**\n\n", kNoGain);
     }
   }
-  for (const Objective& objective : task.plan.objectives) {
-    text += fmt::format("- objective: {}\n", text_of(objective));
-  }
+  for (const std::string& line : objective_lines(result)) text += fmt::format("- {}\n", line);
   text += fmt::format("- tuned on {}\n", sequences_text(task.sequences));
   text += task.held_out.empty() ? "- nothing held out\n"
                                 : fmt::format("- held out {}\n", sequences_text(task.held_out));
@@ -153,8 +151,8 @@ Json outcome_json(const TuneResult& result, const std::vector<double>& values, s
   }
   const auto at = [&](const std::vector<ResponseTable>& tables, std::size_t i, std::size_t k) {
     if (i >= tables.size()) return Json();
-    return json_of(
-        objective_at(tables[i], result.task.plan.objectives[i], k, cases_of(tables[i], "")));
+    const Objective objective = objective_for(result.task.plan.objectives[i], tables[i]);
+    return json_of(objective_at(tables[i], objective, k, cases_of(tables[i], "")));
   };
   for (std::size_t i = 0; i < result.tables.size(); ++i) {
     json["objectives"].push_back(
@@ -201,6 +199,19 @@ std::string search_text(const TuneResult& result) {
                      result.task.plan.optimizer.seed, result.converged ? ", converged" : "");
 }
 
+std::vector<std::string> objective_lines(const TuneResult& result) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < result.task.plan.objectives.size(); ++i) {
+    const std::string text = text_of(result.task.plan.objectives[i]);
+    lines.push_back("objective: " + text);
+    if (i >= result.held_out.size()) continue;
+    const std::string held_out =
+        text_of(objective_for(result.task.plan.objectives[i], result.held_out[i]));
+    if (held_out != text) lines.push_back("on the held-out sequences: " + held_out);
+  }
+  return lines;
+}
+
 TextTable outcome_table(const TuneResult& result) {
   const Objective& objective = result.task.plan.objectives.front();
   const PairedGain of = paired_gain(result.tables.front(), objective, result.chosen.front());
@@ -236,7 +247,8 @@ TextTable front_table(const TuneResult& result) {
       cells.push_back(figure_text(objective_at(table, objective, point, tuned_on[i])));
       if (result.held_out.empty()) continue;
       const ResponseTable& other = result.held_out[i];
-      cells.push_back(figure_text(objective_at(other, objective, held, held_out[i])));
+      const Objective here = objective_for(objective, other);
+      cells.push_back(figure_text(objective_at(other, here, held, held_out[i])));
     }
     text.rows.push_back(std::move(cells));
   };

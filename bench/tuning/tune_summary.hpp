@@ -21,6 +21,10 @@ inline constexpr const char* kTuneFile = "tune.json";  ///< in the folder of a t
 /// chosen points.
 Json tune_json(const TuneResult& result);
 
+/// "objective: ..." per objective, and what it is on the held-out sequences where that differs: the
+/// defaults have a score of 0 there, or were lost.
+std::vector<std::string> objective_lines(const TuneResult& result);
+
 /// A row per part of the sequences, held out first: median score, diverged runs and objective of
 /// the defaults and of the chosen point. Expects a chosen point.
 TextTable outcome_table(const TuneResult& result);

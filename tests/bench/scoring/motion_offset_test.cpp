@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/scoring/motion_offset.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace aims {
@@ -52,6 +53,34 @@ TEST(MotionOffset, OfTwoHoursIsAsExact) {
   const auto offset = motion_offset(estimate, truth);
   ASSERT_TRUE(offset);
   EXPECT_NEAR(offset->seconds, -50000.0, 0.01);
+}
+
+// Overlapping stamps hide an offset: scores would be those of other instants.
+TEST(ClockOffsetHint, IsGivenWhereSpansOverlap) {
+  const Trajectory truth = walk(0.0, 60.0, 0.0);
+  for (const double late : {3.2, -3.2, 0.5}) {
+    Trajectory longer = walk(0.0, 60.0, late);
+    for (StampedPose& each : longer) each.pose.translation *= 1.02;
+    const std::string hint = clock_offset_hint(longer, truth).value_or("");
+    EXPECT_NE(hint.find(fmt::format("--time-offset {:.2f} it stands", -late)), std::string::npos)
+        << late << ": " << hint;
+  }
+  EXPECT_FALSE(clock_offset_hint(walk(1.5, 60.0, 0.0), truth));
+  EXPECT_FALSE(clock_offset_hint(walk(0.0, 60.0, 0.1), truth)) << "the delay of an estimator";
+}
+
+// One that loses distance for a while moves when the truth does.
+TEST(ClockOffsetHint, IsNotGivenOfAWrongEstimate) {
+  const Trajectory truth = walk(0.0, 60.0, 0.0);
+  Trajectory lost;
+  double x = 0.0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const double step =
+        i == 0 ? 0.0 : truth[i].pose.translation.x() - truth[i - 1].pose.translation.x();
+    x += (i > 300 && i < 450 ? 0.3 : 1.0) * step;
+    lost.push_back({truth[i].stamp, {Eigen::Quaterniond::Identity(), {x, 0.0, 0.0}}});
+  }
+  EXPECT_FALSE(clock_offset_hint(lost, truth));
 }
 
 TEST(MotionOffset, OfAWalkWithoutAStopIsNotKnown) {

@@ -75,6 +75,16 @@ TEST(Compare, PassesOverSmallChangesAndNoise) {
   EXPECT_EQ(ate_change(compare(results(kBefore), results(noisy))).verdict, ChangeVerdict::kNone);
 }
 
+TEST(Compare, CallsRoundingTheSame) {
+  std::vector<double> rounded = kBefore;
+  for (double& each : rounded) each += 1e-9;
+  EXPECT_EQ(ate_change(compare(results(kBefore), results(rounded))).verdict, ChangeVerdict::kSame);
+  EXPECT_EQ(ate_change(compare(results({0.2}), results({0.2 + 1e-9}))).verdict,
+            ChangeVerdict::kSame);
+  rounded[2] += 1e-5;
+  EXPECT_NE(ate_change(compare(results(kBefore), results(rounded))).verdict, ChangeVerdict::kSame);
+}
+
 TEST(Compare, NamesADetectableChangeWhereNothingWasDetectedAlone) {
   const auto detectable = [](const std::vector<double>& after) {
     const TextTable table = change_table(compare(results(kBefore), results(after)));

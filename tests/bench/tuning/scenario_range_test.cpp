@@ -173,5 +173,21 @@ TEST(ScenarioRange, IsSwept) {
   EXPECT_EQ(listed->back().estimator, "leg+max_speed=4+links.leg_odometry.loss=0.9");
 }
 
+// The defaults of the scenarios would be different points under one name.
+TEST(ScenarioRange, IsRefusedWhereScenariosHaveOtherDefaults) {
+  SweepPlan plan;
+  plan.scenarios = {"corridor", "severity_5"};
+  plan.estimators = {"leg"};
+  plan.params = {"lidar.range_max=30:100:2"};
+  const auto refused = plan_jobs(plan, AIMS_SCENARIOS);
+  ASSERT_FALSE(refused);
+  EXPECT_TRUE(says(refused.error().message,
+                   "lidar.range_max is 30 there and 100 in corridor; expected the same default "
+                   "values in all scenarios, e.g. by --set lidar.range_max=100"))
+      << refused.error().message;
+  plan.set = {"lidar.range_max=100"};
+  EXPECT_TRUE(plan_jobs(plan, AIMS_SCENARIOS));
+}
+
 }  // namespace
 }  // namespace aims

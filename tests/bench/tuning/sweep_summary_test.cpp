@@ -211,6 +211,13 @@ TEST(SweepReport, CallsNoPointBestByWhatIsNotResolved) {
            " best"));
 }
 
+TEST(SweepReport, CallsNoPointBestOfOneSeed) {
+  MergedSweep sweep = sweep_over_eta(true);
+  std::erase_if(sweep.jobs, [](const MergedJob& job) { return job.listed.seed != "1"; });
+  const std::string text = to_text(point_table(*sweep_responses(sweep, "ate_yaw_m"), Objective()));
+  EXPECT_TRUE(says(text, "least, not resolved")) << text;
+}
+
 TEST(SweepReport, KnowsWhatScenariosHaveOfVariedKeysOfTheirOwn) {
   MergedSweep sweep;
   sweep.plans = {"params: [\"links.leg_odometry.loss=0:0.5:6\"]\nscenarios: [corridor]\n"};

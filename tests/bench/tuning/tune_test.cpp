@@ -483,6 +483,51 @@ TEST(TuneReport, ConcludesNothingFromOneSequence) {
   }
 }
 
+/// The scores of `run` on two scenarios and six held-out seeds, with one point besides the
+/// defaults.
+TuneResult held_out_result(const std::function<RunScore(std::size_t scenario, bool tuned)>& run) {
+  auto result = tuned(small_plan());
+  EXPECT_TRUE(result);
+  ResponseTable& table = result->held_out.front();
+  table.cases.clear();
+  table.default_runs.clear();
+  table.runs.assign(1, {});
+  table.points.resize(1);
+  for (std::uint64_t seed = 11; seed <= 16; ++seed) {
+    for (const std::size_t scenario : {0U, 1U}) {
+      const char* name = scenario == 0 ? "corridor" : "garage";
+      table.cases.push_back({name, name, seed});
+      table.default_runs.push_back(run(scenario, false));
+      table.runs.front().push_back(run(scenario, true));
+    }
+  }
+  return *result;
+}
+
+// One scenario that nothing saves must not hide that the other one is saved on every seed.
+TEST(TuneReport, ASeedIsSavedByOneScenario) {
+  const auto result = held_out_result([](std::size_t scenario, bool tuned) {
+    return RunScore{.value = 1.0, .diverged = scenario == 1 || !tuned};
+  });
+  const std::string verdict = held_out_verdict(result);
+  EXPECT_TRUE(says(verdict, "use them: 6 of 12 held-out runs diverged instead of all (p = 0.031)"))
+      << verdict;
+}
+
+TEST(TuneReport, SaysWhatTheObjectiveIsWhereTheDefaultsScoreZero) {
+  TuneResult result = held_out_result([](std::size_t scenario, bool tuned) {
+    return RunScore{.value = tuned ? 0.1 : 0.2 * double(scenario)};
+  });
+  ASSERT_TRUE(result.task.plan.objectives.front().relative);
+  const Json json = tune_json(result);
+  EXPECT_NEAR(json["defaults"]["objectives"][0]["held_out"].get<double>(), 0.1, 1e-12);
+  EXPECT_NEAR(json["chosen"][0]["objectives"][0]["held_out"].get<double>(), 0.1, 1e-12);
+  const auto lines = objective_lines(result);
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_TRUE(says(lines[1], "on the held-out sequences: median of ate_yaw_m, as the defaults"))
+      << lines[1];
+}
+
 TEST(TuneReport, WithFewSequencesALossIsALossAndAGainIsUndecided) {
   TunePlan plan = small_plan();
   plan.scenarios = {"corridor"};

@@ -79,8 +79,14 @@ function moreText(list: Finding[], shown: Finding[]): string[] {
   return texts;
 }
 
+/** Those that succeed, but whose scores are of parts of the runs. */
+function partial(list: Finding[]): Finding[] {
+  return list.filter((each) => each.success && each.missing && each.percent === null && each.ate === null);
+}
+
 /** What no estimator does; the limit of a length that is kept, or of a success. */
 function noneText(list: Finding[], what: string): string {
+  if (partial(list).length > 0) return `No estimator with poses of every run keeps ${what} within ${kWrong} %`;
   if (!list.some((each) => each.percent !== null && each.percent <= kWrong)) return `No estimator keeps ${what} within ${kWrong} %`;
   return list.some((each) => each.success) ? `No estimator that succeeds keeps ${what} within ${kWrong} %` : "No estimator succeeds";
 }
@@ -107,7 +113,7 @@ function lossText(each: Finding, route: Route): string {
   if (loss && loss.most > 2 * route.length)
     return `${each.name} is lost from ${loss.from.toFixed(0)} s on${place(each.returns)}`;
   if (!each.success && each.aside && (percent ?? 0) <= kSuccess) return asideText(each, unnoticed);
-  if (!each.success && each.fails && percent !== null && percent <= kSuccess)
+  if (!each.success && each.fails && percent !== null)
     return `${each.name} fails on ${each.fails}, its length ${percentText(percent)} off in the median`;
   if (percent !== null && (!loss || loss.early)) {
     const side = signed === null ? "off" : signed < 0 ? "short" : "too long";
@@ -143,7 +149,8 @@ export function finding(list: Finding[], route: Route): string {
   const bad = losers(list);
   const shown = bad.slice(0, 2).map((each) => lossText(each, route));
   shown.push(...moreText(bad.slice(2), bad.slice(0, 2)));
-  shown.push(...good.filter((each) => each.fails).map((each) => `${each.name} fails on ${each.fails}`));
+  shown.push(...good.filter((each) => each.fails).map((each) => `${each.name} ${each.missing ?? `fails on ${each.fails}`}`));
+  shown.push(...partial(list).map((each) => `${each.name} ${each.missing}`));
   const loss = shown.length > 0 ? `; ${shown.join("; ")}` : "";
   if (good.length === 0) return `${noneText(list, what)}${loss}.`;
   const limit = Math.max(kAlike, kFactor * good[0]!.percent!);
@@ -164,7 +171,9 @@ function withoutLengths(list: Finding[]): string {
   const failed = list.filter((each) => !each.success);
   const texts = failed.slice(0, 2).map((each) => each.missing ? `${each.name} ${each.missing}` : each.aside ? asideText(each, "") : `${each.name} fails`);
   texts.push(...moreText(failed.slice(2), failed.slice(0, 2)));
+  texts.push(...partial(list).map((each) => `${each.name} ${each.missing}`));
   const loss = texts.length > 0 ? `; ${texts.join("; ")}` : "";
-  if (good.length === 0) return failed.length > 0 ? `No estimator stays near the truth from its start on${loss}.` : "";
-  return `${good[0]!.name} stays nearest to the truth, ATE ${formatNumber(good[0]!.ate, 2)} m${loss}.`;
+  if (good.length === 0 && texts.length === 0) return "";
+  if (good.length === 0) return partial(list).length > 0 ? `${texts.join("; ")}.` : `No estimator stays near the truth from its start on${loss}.`;
+  return `${good[0]!.name} stays ${list.length > 1 ? "nearest" : "near"} to the truth, ATE ${formatNumber(good[0]!.ate, 2)} m${loss}.`;
 }

@@ -76,6 +76,27 @@ test("a loss begins where the error stays", () => {
   assert.equal(page.lossOf(page.errorTrack(page.truePath(back), back.estimators[0], "start")), null);
 });
 
+test("an error of the scale is there throughout, whatever its size and however long it stays below the limit", () => {
+  for (const [scale, side] of [[0.97, "3.0 % short"], [1.02, "2.0 % too long"], [1.04, "4.0 % too long"]]) {
+    const data = walk({ a: (x) => [scale * x, 0] });
+    const { list, route } = page.findingsOf(data);
+    assert.match(page.finding(list, route), new RegExp(`a is ${side} throughout`));
+  }
+});
+
+test("over seeds, failed runs and parts of runs are named and leave the successes", () => {
+  const each = { name: "z", success: true, percent: 0.001, worst: 0.002, signed: null, ate: 0.01, loss: null, aside: null, returns: null, healthy: false };
+  const route = { corridor: true, length: Infinity };
+  assert.equal(page.finding([{ ...each, fails: "1 of 6 seeds", missing: "failed to run on 1 of 6 seeds" }], route),
+    "z keeps the corridor's length within 0.0010 % in the median and 0.0020 % at worst; z failed to run on 1 of 6 seeds.");
+  const part = { ...each, name: "m", percent: null, ate: null, fails: "1 of 6 seeds", missing: "has a gap on 1 of 6 seeds" };
+  assert.equal(page.finding([part], route), "m has a gap on 1 of 6 seeds.");
+  assert.equal(page.finding([part, { ...each, percent: 2, worst: 3, fails: null }], route),
+    "No estimator with poses of every run keeps the corridor's length within 1 %; z is 2.0 % off in the median; m has a gap on 1 of 6 seeds.");
+  const off = { ...each, name: "o", success: false, percent: 19, worst: 20, fails: "3 of 3 seeds" };
+  assert.match(page.finding([off], route), /o fails on 3 of 3 seeds, its length 19 % off in the median/);
+});
+
 test("a gap breaks the curve, is named as such, and is no loss", () => {
   const data = walk({ a: (x) => [x > 40 && x < 52 ? NaN : x, 0] });
   data.scores.estimators.a = { ...data.scores.estimators.a, success: false, diverged_reason: "gap" };

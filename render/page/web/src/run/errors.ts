@@ -144,6 +144,24 @@ export function lossOf(track: ErrorTrack): Loss | null {
   return { from: track.t[from]!, distance: track.distance[from]!, most: mostOf(track, from) };
 }
 
+/** An error of the scale alone is within this part of itself everywhere. */
+const kSteady = 0.25;
+
+/** Whether the distance from the start is wrong by one factor all along: beyond a quarter of the way, at all samples. */
+export function isScaled(path: Path, track: ErrorTrack): boolean {
+  const [start, first] = [truthAt(path, track.t[0]!), track.p.slice(0, 3)];
+  if (!start) return false;
+  const far = track.t.map((t, i) => {
+    const truth = truthAt(path, t)!;
+    const of = (p: number[], from: number[]) => Math.hypot(p[0]! - from[0]!, p[1]! - from[1]!);
+    return { truth: of(truth, start), estimate: of(track.p.slice(3 * i, 3 * i + 2), first) };
+  });
+  const least = 0.25 * Math.max(...far.map((each) => each.truth));
+  const errors = far.filter((each) => each.truth > least && Number.isFinite(each.estimate)).map((each) => each.estimate / each.truth - 1);
+  const mean = errors.reduce((sum, each) => sum + each, 0) / errors.length;
+  return errors.length >= 10 && errors.every((each) => Math.abs(each - mean) <= kSteady * Math.abs(mean));
+}
+
 /** The largest error from a sample on [m]. */
 export function mostOf(track: ErrorTrack, from = 0): number {
   return track.error.reduce((most, error, i) => (i >= from && error > most ? error : most), 0);

@@ -4,7 +4,7 @@ import type { RunPayload } from "../contract";
 import { at, own } from "../dom";
 import type { Finding, Route } from "../findings";
 import { isNumber } from "../format";
-import { errorTrack, lossOf, missingText, truePath, type Path } from "./errors";
+import { errorTrack, isScaled, lossOf, missingText, truePath, type Path } from "./errors";
 
 /** A loss that begins within this part of the route is there throughout. */
 const kEarly = 0.15;
@@ -53,7 +53,7 @@ function findingOf(data: RunPayload, path: Path | null, name: string, scores: un
     worst: null,
     signed: signedPercent(scores),
     ate: numberAt("ate_yaw_m"),
-    loss: loss ? { from: loss.from, distance: loss.distance, most: loss.most, early: loss.distance < kEarly * length } : null,
+    loss: loss ? { from: loss.from, distance: loss.distance, most: loss.most, early: loss.distance < kEarly * length || isScaled(path!, track!) } : null,
     aside: asideOf(scores),
     returns: loss ? returnsAfter(data, loss.from) : null,
     missing: missingText(data, name),

@@ -113,11 +113,18 @@ const kVerbs: Record<string, string> = {
   invalid_pose: "returns poses that are none",
 };
 
-/** "has a gap on 4 of 4 seeds", "failed to run on 1 and has a gap on 2 of 4 seeds"; null where estimates are whole. */
+/** "has a gap on 4 of 4 seeds", "failed to run on 1 and diverges on 2 of 4 seeds"; null where estimates are whole. */
 function missingText(data: SuitePayload, scenario: string, name: string, runs: number): string | null {
-  const reasons = reasonsOf(data, scenario, name).filter((each) => reasonName(each) !== "diverged").map((each) => kVerbs[String(each)] ?? "is incomplete");
-  const texts = [...new Set(reasons)].map((verb) => `${verb} on ${reasons.filter((each) => each === verb).length}`);
-  return texts.length > 0 ? `${texts.join(" and ")} of ${runs} seeds` : null;
+  const reasons = reasonsOf(data, scenario, name);
+  if (reasons.every((each) => reasonName(each) === "diverged")) return null;
+  const verbs = reasons.map((each) => (reasonName(each) === "diverged" ? "diverges" : kVerbs[String(each)] ?? "is incomplete"));
+  const texts = [...new Set(verbs)].map((verb) => `${verb} on ${verbs.filter((each) => each === verb).length}`);
+  return `${texts.join(" and ")} of ${runs} seeds`;
+}
+
+/** Whether the scores of some run are of a part of it; a run that failed has none. */
+function hasParts(data: SuitePayload, scenario: string, name: string): boolean {
+  return runsOf(data, scenario).some((run) => run.partial.includes(name) && Object.hasOwn(run.estimators, name));
 }
 
 type ScoreOf = (key: string, statistic: "median" | "worst") => number | null;
@@ -137,10 +144,11 @@ function findingOf(data: SuitePayload, scenario: SuiteScenario, name: string): F
     return isNumber(value) ? value : null;
   };
   const failures = summary.runs - summary.successes;
+  const whole = !hasParts(data, scenario.name, name);
   return {
-    name, success: isWhole(data, scenario.name, name) && summary.successes > summary.runs / 2, percent: number("m_list_percent.all", "median"),
+    name, success: summary.successes > summary.runs / 2, percent: whole ? number("m_list_percent.all", "median") : null,
     worst: summary.runs > 1 ? number("m_list_percent.all", "worst") : null, signed: null,
-    ate: number("ate_yaw_m", "median"), loss: null, aside: asideOf(number), returns: null, healthy: false,
+    ate: whole ? number("ate_yaw_m", "median") : null, loss: null, aside: asideOf(number), returns: null, healthy: false,
     fails: failures > 0 ? `${failures} of ${summary.runs} seeds` : null,
     missing: missingText(data, scenario.name, name, summary.runs),
   };
