@@ -10,11 +10,16 @@ void describe(Fields& f, LegConfig& c) {
   f.flag("repeat_lost", c.repeat_lost,
          {"", any(), "repeat the last packet while packets are lost (zero-order hold)"});
   f.vector("velocity_sigma", c.velocity_sigma,
-           {"m/s", positive_up_to(1e3), "error of one sample along the base axes, R_leg",
+           {"m/s", positive_up_to(1e3),
+            "error of one sample along the base axes, R_leg; with cross_validation 0.1 until the "
+            "leg scale is known",
             "docs/decisions.md#leg-noise-of-003-ms-per-sample"});
-  f.number("scale_sigma", c.scale_sigma,
-           {"-", up_to(1e6), "error proportional to the speed, R_leg",
-            "docs/decisions.md#leg-noise-of-003-ms-per-sample"});
+  f.number(
+      "scale_sigma", c.scale_sigma,
+      {"-", up_to(1e6),
+       "error proportional to the speed, R_leg; with cross_validation 0.05 until the leg scale "
+       "is known",
+       "docs/decisions.md#leg-noise-of-003-ms-per-sample"});
 }
 
 LinearMeasurement leg_velocity_model(const NominalState& state, const Pose& T_body_base,
