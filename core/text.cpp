@@ -123,6 +123,20 @@ std::string line_text(std::string_view message) {
                      text.substr(tail));
 }
 
+std::string_view trimmed(std::string_view text, std::string_view blanks) {
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return lower;
+}
+
 std::string decimal_text(double value, int digits) {
   std::string text = fmt::format("{:.{}f}", value, digits);
   const bool zero = text.find_first_not_of("-0.") == std::string::npos;

@@ -23,6 +23,12 @@ std::string name_text(std::string_view bytes);
 /// and of a message of more than 4000 bytes the middle is left out.
 std::string line_text(std::string_view message);
 
+/// Without the characters of `blanks` at either end.
+std::string_view trimmed(std::string_view text, std::string_view blanks = " \t");
+
+/// With a to z for A to Z; other characters stay.
+std::string lower_case(std::string_view text);
+
 /// The number with so many decimals; what rounds to zero has no sign.
 std::string decimal_text(double value, int digits);
 

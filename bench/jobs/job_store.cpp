@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <sstream>
 #include <system_error>
 
@@ -175,7 +176,9 @@ Result<std::vector<ListedJob>> JobStore::listed() const {
   const auto versions = table->texts("version");  // older lists have none
   std::vector<ListedJob> jobs;
   for (std::size_t i = 0; i < table->rows(); ++i) {
-    jobs.push_back({ids[i], scenarios[i], seeds[i], labels[i], estimators[i],
+    std::uint64_t seed = 0;  // where the list names none
+    std::from_chars(seeds[i].data(), seeds[i].data() + seeds[i].size(), seed);
+    jobs.push_back({ids[i], scenarios[i], seed, labels[i], estimators[i],
                     i < versions.size() ? versions[i] : ""});
   }
   return jobs;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -24,7 +25,7 @@ struct JobOutputs {
 struct ListedJob {
   std::string id;
   std::string scenario;
-  std::string seed;
+  std::uint64_t seed = 0;
   std::string label;         ///< of the estimator
   std::string estimator;     ///< with its settings and those of the scenario
   std::string version = {};  ///< of scenario and estimator (job.hpp); empty: not known

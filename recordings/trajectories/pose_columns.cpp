@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/text.hpp"
+
 namespace aims {
 namespace {
 
@@ -22,15 +24,12 @@ struct Heading {
 Heading heading_of(std::string_view cell) {
   Heading heading;
   const std::size_t bracket = std::min(cell.find_first_of("[("), cell.size());
-  heading.name = cell.substr(0, bracket);
+  heading.name = lower_case(cell.substr(0, bracket));
   if (bracket < cell.size()) {
     const std::string_view rest = cell.substr(bracket + 1);
-    heading.unit = rest.substr(0, rest.find_first_of("])"));
+    heading.unit = lower_case(rest.substr(0, rest.find_first_of("])")));
   }
-  const auto lower = [](unsigned char c) { return static_cast<char>(std::tolower(c)); };
-  std::ranges::transform(heading.name, heading.name.begin(), lower);
   std::ranges::replace(heading.name, '/', '.');  // as PlotJuggler writes fields
-  std::ranges::transform(heading.unit, heading.unit.begin(), lower);
   while (!heading.name.empty() && heading.name.back() == ' ') heading.name.pop_back();
   const std::size_t last = heading.name.rfind('_');
   if (heading.unit.empty() && last != std::string::npos && last > 0) {
