@@ -8,6 +8,9 @@
 
 namespace aims {
 
+/// The word as a POSIX shell reads it back; a plain one as it is.
+std::string shell_word(const std::string& word);
+
 /// The bytes as valid UTF-8: what is not UTF-8 becomes \xNN, so that a name stays recognizable.
 std::string utf8_text(std::string_view bytes);
 

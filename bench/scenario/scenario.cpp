@@ -14,7 +14,7 @@
 #include "core/file_name.hpp"
 #include "core/files/config_dump.hpp"
 #include "core/files/yaml_config.hpp"
-#include "core/files/yaml_position.hpp"
+#include "core/files/yaml_document.hpp"
 #include "estimator/estimator_spec.hpp"
 #include "estimator/registry.hpp"
 #include "sim/robot/scene_route.hpp"

@@ -11,7 +11,6 @@
 #include "core/files/text_file.hpp"
 #include "core/files/yaml_assigner.hpp"
 #include "core/files/yaml_document.hpp"
-#include "core/files/yaml_size.hpp"
 #include "core/text.hpp"
 
 namespace aims {

@@ -16,7 +16,6 @@
 #include "core/files/iso_time.hpp"
 #include "core/files/number_lines.hpp"
 #include "core/text.hpp"
-#include "recordings/trajectories/motive_header.hpp"
 #include "recordings/trajectories/pose_columns.hpp"
 
 namespace aims {
