@@ -13,6 +13,8 @@
 namespace aims {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr int kDeepest = 100;
 /// A shorter text costs the parser little, however deep it nests.
 constexpr std::size_t kHarmless = std::size_t{128} << 10;
@@ -131,8 +133,6 @@ std::string with_position(const fs::path& file, const std::string& message, cons
 }
 
 namespace {
-
-namespace fs = std::filesystem;
 
 /// The first tab that indents the line at `last` or the one before (from 0), where a parser fails
 /// on it; YAML itself then complains about something else.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "estimator/baselines/points/error_blocks.hpp"
 #include "estimator/baselines/points/translation_constraint.hpp"
 
 namespace aims::leg_kilo {
