@@ -157,6 +157,12 @@ Result<void> JobStore::keep_settings(const std::vector<std::string>& settings) c
                                fmt::format("{}", fmt::join(settings, "\n")));
 }
 
+std::uint64_t seed_of(const ListedJob& job) {
+  std::uint64_t seed = 0;
+  std::from_chars(job.seed.data(), job.seed.data() + job.seed.size(), seed);
+  return seed;
+}
+
 Result<std::vector<ListedJob>> JobStore::listed() const {
   if (!fs::exists(folder_ / kListFile)) {
     return failure(fmt::format("{}: holds no results: no {}", folder_.string(), kListFile));
@@ -176,9 +182,7 @@ Result<std::vector<ListedJob>> JobStore::listed() const {
   const auto versions = table->texts("version");  // older lists have none
   std::vector<ListedJob> jobs;
   for (std::size_t i = 0; i < table->rows(); ++i) {
-    std::uint64_t seed = 0;  // where the list names none
-    std::from_chars(seeds[i].data(), seeds[i].data() + seeds[i].size(), seed);
-    jobs.push_back({ids[i], scenarios[i], seed, labels[i], estimators[i],
+    jobs.push_back({ids[i], scenarios[i], seeds[i], labels[i], estimators[i],
                     i < versions.size() ? versions[i] : ""});
   }
   return jobs;

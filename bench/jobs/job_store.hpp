@@ -25,11 +25,14 @@ struct JobOutputs {
 struct ListedJob {
   std::string id;
   std::string scenario;
-  std::uint64_t seed = 0;
+  std::string seed;
   std::string label;         ///< of the estimator
   std::string estimator;     ///< with its settings and those of the scenario
   std::string version = {};  ///< of scenario and estimator (job.hpp); empty: not known
 };
+
+/// The job's seed; 0 where the list names none.
+std::uint64_t seed_of(const ListedJob& job);
 
 /// The one layout of stored results:
 ///

@@ -30,7 +30,7 @@ Result<StoredResults> read_store(const JobStore& store) {
   std::map<std::pair<std::string, std::uint64_t>, StoredRun> runs;
   for (const ListedJob& job : *listed) {
     auto result = store.find(job.id);
-    StoredRun& run = runs[{job.scenario, job.seed}];
+    StoredRun& run = runs[{job.scenario, seed_of(job)}];
     run.complete = run.complete && result;
     if (!result) continue;
     // Points of a sweep share a label.

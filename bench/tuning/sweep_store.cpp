@@ -80,7 +80,7 @@ class Filler {
     job_.bind(3, listed.scenario);
     bind_text(job_, 4, file, "family");
     bind_number(job_, 5, value_in(file, "level", Json()));
-    job_.bind(6, static_cast<std::int64_t>(listed.seed));
+    job_.bind(6, static_cast<std::int64_t>(seed_of(listed)));
     const std::size_t plus = listed.estimator.find('+');
     job_.bind(7, listed.estimator.substr(0, plus));
     job_.bind(8, plus == std::string::npos ? "" : listed.estimator.substr(plus + 1));
