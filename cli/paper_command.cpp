@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "bench/run/draw_observer.hpp"
 #include "bench/studies/paper_study.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "bench/studies/written_runs.hpp"
@@ -10,12 +12,27 @@
 #include "cli/progress.hpp"
 #include "cli/suite_options.hpp"
 #include "cli/terminal.hpp"
-#include "render/results/study_pictures.hpp"
+#include "core/error.hpp"
+#include "render/results/run_pictures.hpp"
 
 namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Draws each experiment's first seed, whose run lies in `folder` (bench/studies/written_runs.hpp),
+/// as the paper's figures: SCENARIO-trajectories.png and SCENARIO-maps.png of LOAM, FAST-LIO2,
+/// LeGO-LOAM and AIMS.
+Result<void> draw_paper(const std::vector<PaperExperiment>& experiments,
+                        const std::filesystem::path& folder, const DrawObserver& observer) {
+  for (const PaperExperiment& each : experiments) {
+    if (each.seeds.empty()) continue;
+    auto drawn = draw_systems(suite_run_folder(folder, each.scenario, each.seeds.front()),
+                              {"loam", "fast_lio2", "lego_loam", "aims"}, folder, observer);
+    if (!drawn) return drawn;
+  }
+  return {};
+}
 
 /// The options with what the study sets where nothing is given: the paper's experiments and
 /// systems, sensors as on real robots.

@@ -8,14 +8,10 @@
 #include <cmath>
 #include <optional>
 
+#include "core/text.hpp"
+
 namespace aims {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 /// A finite number that fills the whole text, or nothing.
 template <class Number>

@@ -8,6 +8,9 @@
 
 namespace aims {
 
+/// The word as a POSIX shell reads it back; a plain one as it is.
+std::string shell_word(const std::string& word);
+
 /// The bytes as valid UTF-8: what is not UTF-8 becomes \xNN, so that a name stays recognizable.
 std::string utf8_text(std::string_view bytes);
 
@@ -22,6 +25,12 @@ std::string name_text(std::string_view bytes);
 /// control characters become \xNN, words of more than 511 bytes their first 80 and the length,
 /// and of a message of more than 4000 bytes the middle is left out.
 std::string line_text(std::string_view message);
+
+/// Without the characters of `blanks` at either end.
+std::string_view trimmed(std::string_view text, std::string_view blanks = " \t");
+
+/// With a to z for A to Z; other characters stay.
+std::string lower_case(std::string_view text);
 
 /// The number with so many decimals; what rounds to zero has no sign.
 std::string decimal_text(double value, int digits);

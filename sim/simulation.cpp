@@ -77,17 +77,22 @@ std::vector<WaypointTime> waypoint_times_since(const RouteFollower& route, Time 
   return waypoint_times;
 }
 
-/// Error when the route cannot be walked, or the robot would start in contact with a solid.
-Result<void> check_route(const SimulationConfig& config, const Scene& scene, const World& world) {
+/// The scene of that seed; error when the configuration is not valid or its route cannot be walked.
+Result<Scene> walkable_scene(const SimulationConfig& config, std::uint64_t seed) {
+  if (auto ok = validate(config); !ok) return tl::unexpected(ok.error());
+  Scene scene = build_scene(config.scene, seed);
   auto walkable =
       check_walkable(config.route, scene, {config.robot.gait.body_height, config.robot.half_width});
   if (!walkable) {
     return failure(walkable.error().message + "; " + route_hint(config.scene.kind));
   }
-  if (world.robot_inside_solid()) {
-    return failure("route.points.0: the robot would start inside a wall or object of the scene");
-  }
-  return {};
+  return scene;
+}
+
+/// With the points of its route.
+SimulationConfig with_route(SimulationConfig config) {
+  config.route = route_in(config.scene, config.route);
+  return config;
 }
 
 }  // namespace
@@ -240,29 +245,34 @@ void Simulation::Impl::step() {
   record();
 }
 
+Result<void> check_walk(const SimulationConfig& config, std::uint64_t seed) {
+  const auto scene = walkable_scene(with_route(config), seed);
+  if (!scene) return tl::unexpected(scene.error());
+  return {};
+}
+
 Result<Simulation> Simulation::create(const SimulationConfig& given, std::uint64_t seed,
                                       int threads) {
-  SimulationConfig config = given;
-  config.route = route_in(given.scene, given.route);
-  if (auto ok = validate(config); !ok) return tl::unexpected(ok.error());
-  Scene scene = build_scene(config.scene, seed);
-  auto setup = world_setup(config, scene, run_seeds(config, seed));
+  const SimulationConfig config = with_route(given);
+  auto scene = walkable_scene(config, seed);
+  if (!scene) return tl::unexpected(scene.error());
+  auto setup = world_setup(config, *scene, run_seeds(config, seed));
   if (!setup) return tl::unexpected(setup.error());
   auto walker =
       Walker::create(*setup, config.robot.gait, config.route, start_offset(config.robot, seed));
   if (!walker) return tl::unexpected(walker.error());
-  if (auto ok = check_route(config, scene, walker->world()); !ok) {
-    return tl::unexpected(ok.error());
+  if (walker->world().robot_inside_solid()) {
+    return failure("route.points.0: the robot would start inside a wall or object of the scene");
   }
   walker->settle();
   const Pushes pushes(config.push, seed);
   WalkMonitor monitor(config.route, config.robot.gait.period, config.max_duration);
   while (to_seconds(walker->world().state().stamp) < config.recording_start && !monitor.ended()) {
     step_pushed(*walker, pushes);
-    monitor.update(*walker, scene.floor);
+    monitor.update(*walker, scene->floor);
   }
-  return Simulation(
-      std::make_unique<Impl>(config, seed, threads, std::move(scene), std::move(*walker), monitor));
+  return Simulation(std::make_unique<Impl>(config, seed, threads, std::move(*scene),
+                                           std::move(*walker), monitor));
 }
 
 Simulation::Simulation(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}

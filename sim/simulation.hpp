@@ -13,6 +13,10 @@
 
 namespace aims {
 
+/// Error that `Simulation::create` finds without physics: the configuration is not valid, or a
+/// point or way of the route lies inside a solid or outside the building.
+Result<void> check_walk(const SimulationConfig& config, std::uint64_t seed);
+
 /// Wall time [s] spent in the parts of the simulation so far.
 struct SimulationTimes {
   double physics = 0.0;  ///< dynamics and gait controller

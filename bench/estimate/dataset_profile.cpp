@@ -64,13 +64,15 @@ Result<DatasetProfile> load_dataset_profile(const fs::path& file,
                                             std::span<const std::string> overrides) {
   DatasetProfile profile;
   EstimateConfig& read = profile.read;
-  auto chosen = choose_run(file, overrides, {}, read.run, read.estimators);
+  const YamlFiles files;
+  auto chosen = choose_run(file, overrides, files, read.run, read.estimators);
   if (!chosen) return tl::unexpected(chosen.error());
   read.run = std::move(chosen->of_file);
-  if (auto ok = load_config(file, profile); !ok) return tl::unexpected(ok.error());
+  if (auto ok = load_config(file, profile, nullptr, files); !ok) return tl::unexpected(ok.error());
   find_calibrations(read.recording, file.parent_path());
   read.run = std::move(chosen->all);
-  if (auto ok = apply_overrides(profile, overrides); !ok) return tl::unexpected(ok.error());
+  if (auto ok = apply_overrides(profile, overrides, nullptr, files); !ok)
+    return tl::unexpected(ok.error());
   if (read.run.empty()) return failure("run: expected at least one name");
   if (auto specs = check_estimator_specs(read.run); !specs) {
     return failure("run: " + specs.error().message);

@@ -310,16 +310,18 @@ void describe(Fields& fields, EstimateConfig& config) {
 Result<EstimateConfig> load_estimate_config(const std::filesystem::path& file,
                                             std::span<const std::string> overrides) {
   EstimateConfig config;
-  auto chosen_run = choose_run(file, overrides, {}, config.run, config.estimators);
+  const YamlFiles files;
+  auto chosen_run = choose_run(file, overrides, files, config.run, config.estimators);
   if (!chosen_run) return tl::unexpected(chosen_run.error());
   config.run = std::move(chosen_run->of_file);
   std::vector<AssignedKey> assigned;
   if (!file.empty()) {
-    if (auto ok = load_config(file, config, &assigned); !ok) return tl::unexpected(ok.error());
+    if (auto ok = load_config(file, config, &assigned, files); !ok)
+      return tl::unexpected(ok.error());
     find_calibrations(config.recording, file.parent_path());
   }
   config.run = std::move(chosen_run->all);
-  if (auto ok = apply_overrides(config, overrides, &assigned); !ok) {
+  if (auto ok = apply_overrides(config, overrides, &assigned, files); !ok) {
     return tl::unexpected(ok.error());
   }
   if (config.run.empty()) return failure("run: expected at least one name");

@@ -4,12 +4,176 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <variant>
 
 #include "bench/estimate/stream.hpp"
+#include "core/lie.hpp"
 #include "core/text.hpp"
+#include "recordings/median.hpp"
 
 namespace aims {
+namespace {
+
+constexpr Duration kInterval = 500 * kMillisecond;
+constexpr std::size_t kMostScans = 200;  ///< of turns
+constexpr int kLastSamples = 1000;       ///< of the IMU, kept between turns
+constexpr double kTurning = 0.1;         ///< mean of the gyro over kShort [rad/s]
+constexpr Duration kShort = 250 * kMillisecond;
+constexpr Duration kAfterTurn = 3 * kInterval;
+constexpr double kFullTurns = 3.0;  ///< of another unit, whose multiples of a turn count [rad]
+
+/// The rotation from the gyro between two stamps.
+Eigen::Vector3d gyro_rotation(std::span<const ImuSample> samples, Time begin, Time end) {
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  auto next = std::ranges::upper_bound(samples, begin, {}, &ImuSample::stamp);
+  Time at = begin;
+  for (; next != samples.end() && at < end; ++next) {
+    const Time until = std::min(next->stamp, end);
+    const Eigen::Vector3d turned = next->angular_velocity * to_seconds(until - at);
+    sum += turned;
+    rotation = rotation * so3_exp(turned);
+    at = until;
+  }
+  return sum.norm() > kFullTurns ? sum : so3_log(rotation.normalized());
+}
+
+/// Adds the rotations over intervals of `kInterval` between poses.
+void add_pairs(const Trajectory& poses, std::span<const ImuSample> samples,
+               std::vector<RotationPair>& pairs) {
+  std::size_t first = 0;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const Duration step = poses[i].stamp - poses[first].stamp;
+    if (step < kInterval) continue;
+    RotationPair pair;
+    pair.lidar = so3_log(poses[first].pose.rotation.conjugate() * poses[i].pose.rotation);
+    pair.imu = gyro_rotation(samples, poses[first].stamp, poses[i].stamp);
+    const bool turns = std::max(pair.imu.norm(), pair.lidar.norm()) > kLeastRotation;
+    if (step < 2 * kInterval && turns) pairs.push_back(pair);
+    first = i;
+  }
+}
+
+/// Adds the rates between poses, at the middle of their time.
+void add_rates(const Trajectory& poses, std::vector<TurnRate>& rates) {
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const Duration step = poses[i].stamp - poses[i - 1].stamp;
+    if (step <= 0 || step > kInterval) continue;
+    const double angle = poses[i - 1].pose.rotation.angularDistance(poses[i].pose.rotation);
+    rates.push_back({poses[i - 1].stamp + step / 2, angle / to_seconds(step)});
+  }
+}
+
+}  // namespace
+
+std::optional<RotationEvidence> RotationEvidence::create(const RecordingSetup& setup,
+                                                         WatchedScans watched) {
+  const TopicsConfig& topics = setup.topics;
+  const auto is_read = [](const std::string& topic) { return !topic.empty() && topic != "none"; };
+  if (!is_read(topics.lidar) || !is_read(topics.imu)) return std::nullopt;
+  return RotationEvidence(setup.rig, watched);
+}
+
+/// Whether the gyro turns at its last samples.
+bool RotationEvidence::is_turning() const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  std::size_t count = 0;
+  for (auto each = samples_.rbegin(); each != samples_.rend(); ++each) {
+    if (each->stamp < samples_.back().stamp - kShort) break;
+    sum += each->angular_velocity;
+    ++count;
+  }
+  return count > 0 && sum.norm() > kTurning * static_cast<double>(count);
+}
+
+bool RotationEvidence::is_wanted(const LidarScan& scan) {
+  if (!first_scan_) first_scan_ = scan.stamp;
+  if (watched_ == WatchedScans::kAll) return scan.stamp - *first_scan_ < kLongest;
+  if (scan_times_.size() >= kMostScans) return false;
+  if (is_turning()) last_turning_ = scan.stamp;
+  return last_turning_ && scan.stamp - *last_turning_ < kAfterTurn;
+}
+
+void RotationEvidence::close() {
+  if (!odometry_) return;
+  turns_.insert(turns_.end(), odometry_->paths().begin(), odometry_->paths().end());
+  odometry_.reset();
+  kept_ = samples_.size();
+}
+
+void RotationEvidence::take(const LidarScan& scan) {
+  if (!is_wanted(scan)) return close();
+  if (!odometry_) odometry_.emplace();
+  scan_times_.push_back(scan.end - scan.stamp);
+  odometry_->add(scan);
+}
+
+void RotationEvidence::take(const ImuSample& sample) {
+  if (!sample.angular_velocity.allFinite() || !sample.specific_force.allFinite()) return;
+  if (!first_sample_) first_sample_ = sample.stamp;
+  if (sample.stamp - *first_sample_ < kSecond) first_force_ += sample.specific_force;
+  samples_.push_back(sample);
+  // Between turns the last ones suffice.
+  if (watched_ == WatchedScans::kAll || odometry_ || samples_.size() < kept_ + 2 * kLastSamples) {
+    return;
+  }
+  const auto old = samples_.begin() + static_cast<std::ptrdiff_t>(kept_);
+  samples_.erase(old, samples_.end() - kLastSamples);
+}
+
+void RotationEvidence::consume(std::span<const Delivery> deliveries) {
+  for (const Delivery& each : deliveries) {
+    if (const auto* imu = std::get_if<ImuSample>(&each.measurement)) take(*imu);
+    if (const auto* scan = std::get_if<LidarScanPtr>(&each.measurement)) take(**scan);
+  }
+}
+
+void RotationEvidence::finish() {
+  close();
+  std::ranges::stable_sort(samples_, {}, &ImuSample::stamp);
+}
+
+Duration RotationEvidence::half_scan() const { return upper_median(scan_times_).value_or(0) / 2; }
+
+/// Samples with the mean rate over a scan around each, as scans see it: without vibration.
+std::vector<ImuSample> RotationEvidence::seen_by_scans() const {
+  const Duration half = std::max<Duration>(half_scan(), kMillisecond);
+  std::vector<ImuSample> means = samples_;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  std::size_t first = 0, last = 0;
+  for (ImuSample& each : means) {
+    for (; last < samples_.size() && samples_[last].stamp <= each.stamp + half; ++last) {
+      sum += samples_[last].angular_velocity;
+    }
+    for (; samples_[first].stamp < each.stamp - half; ++first) {
+      sum -= samples_[first].angular_velocity;
+    }
+    each.angular_velocity = sum / static_cast<double>(last - first);
+  }
+  return means;
+}
+
+MountCheck RotationEvidence::mount() const {
+  std::vector<RotationPair> pairs;
+  const auto samples = seen_by_scans();
+  for (const Trajectory& each : turns_) {
+    add_pairs(each, samples, pairs);
+  }
+  return check_mount(pairs, rig_.T_body_lidar.rotation, first_force_);
+}
+
+RateCheck RotationEvidence::rates() const {
+  std::vector<TurnRate> lidar;
+  for (const Trajectory& each : turns_) add_rates(each, lidar);
+  std::vector<TurnRate> gyro;
+  for (const ImuSample& each : seen_by_scans()) {
+    gyro.push_back({each.stamp, each.angular_velocity.norm()});
+  }
+  return check_rates(lidar, gyro);
+}
+
 namespace {
 
 constexpr double kClockOffset = 0.02;  ///< that counts: half of what scans of 10 Hz show [s]

@@ -3,17 +3,15 @@
 
 #include <fmt/format.h>
 
-#include "core/files/yaml_config.hpp"
 #include "estimator/estimator_spec.hpp"
 
 namespace aims {
 
 Result<RunChoice> choose_run(const std::filesystem::path& file,
-                             std::span<const std::string> overrides,
-                             const std::filesystem::path& folder,
+                             std::span<const std::string> overrides, const YamlFiles& files,
                              const std::vector<std::string>& standard, EstimatorConfigs& configs) {
   const auto read = [&](std::span<const std::string> settings) {
-    auto texts = read_texts(file, settings, "run", folder);
+    auto texts = read_texts(file, settings, "run", files);
     return texts && *texts ? std::move(**texts) : standard;
   };
   RunChoice choice{read({}), read(overrides)};

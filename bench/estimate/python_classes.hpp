@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/files/yaml_config.hpp"
 #include "estimator/estimator_config.hpp"
 
 namespace aims {
@@ -21,8 +22,7 @@ struct RunChoice {
 /// Python to `configs`, so that the keys of their settings are known. Error when a class that runs
 /// cannot be imported; what is malformed is left to who reads all keys.
 Result<RunChoice> choose_run(const std::filesystem::path& file,
-                             std::span<const std::string> overrides,
-                             const std::filesystem::path& folder,
+                             std::span<const std::string> overrides, const YamlFiles& files,
                              const std::vector<std::string>& standard, EstimatorConfigs& configs);
 
 }  // namespace aims

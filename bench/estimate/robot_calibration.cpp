@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/metrics/chi_square.hpp"
+#include "bench/metrics/statistics.hpp"
 #include "core/files/text_file.hpp"
 #include "estimator/aims/robot_prior.hpp"
 #include "estimator/legs/joint_compliance.hpp"

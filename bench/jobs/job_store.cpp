@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <sstream>
 #include <system_error>
 
@@ -154,6 +155,12 @@ std::vector<std::string> JobStore::settings() const {
 Result<void> JobStore::keep_settings(const std::vector<std::string>& settings) const {
   return write_file_atomically(folder_ / kSettingsFile,
                                fmt::format("{}", fmt::join(settings, "\n")));
+}
+
+std::uint64_t seed_of(const ListedJob& job) {
+  std::uint64_t seed = 0;
+  std::from_chars(job.seed.data(), job.seed.data() + job.seed.size(), seed);
+  return seed;
 }
 
 Result<std::vector<ListedJob>> JobStore::listed() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -29,6 +30,9 @@ struct ListedJob {
   std::string estimator;     ///< with its settings and those of the scenario
   std::string version = {};  ///< of scenario and estimator (job.hpp); empty: not known
 };
+
+/// The job's seed; 0 where the list names none.
+std::uint64_t seed_of(const ListedJob& job);
 
 /// The one layout of stored results:
 ///

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
 #include "bench/jobs/job_store.hpp"
@@ -16,12 +15,6 @@ namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::uint64_t seed_of(const std::string& text) {
-  std::uint64_t seed = 0;
-  std::from_chars(text.data(), text.data() + text.size(), seed);
-  return seed;
-}
 
 /// What the jobs of one scenario and seed came to.
 struct StoredRun {
@@ -37,7 +30,7 @@ Result<StoredResults> read_store(const JobStore& store) {
   std::map<std::pair<std::string, std::uint64_t>, StoredRun> runs;
   for (const ListedJob& job : *listed) {
     auto result = store.find(job.id);
-    StoredRun& run = runs[{job.scenario, seed_of(job.seed)}];
+    StoredRun& run = runs[{job.scenario, seed_of(job)}];
     run.complete = run.complete && result;
     if (!result) continue;
     // Points of a sweep share a label.

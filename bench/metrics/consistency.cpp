@@ -6,8 +6,6 @@
 #include <map>
 #include <vector>
 
-#include "bench/metrics/chi_square.hpp"
-#include "bench/metrics/proportion.hpp"
 #include "bench/metrics/statistics.hpp"
 
 namespace aims {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "bench/metrics/bootstrap.hpp"
+#include "bench/metrics/statistics.hpp"
 
 namespace aims {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "bench/metrics/bootstrap.hpp"
+#include "bench/metrics/statistics.hpp"
 
 namespace aims {
 

@@ -10,7 +10,7 @@
 
 #include "bench/metrics/statistics.hpp"
 #include "bench/scoring/score_statistics.hpp"
-#include "core/shell_word.hpp"
+#include "core/text.hpp"
 #include "estimator/estimator_spec.hpp"
 
 namespace aims {

@@ -14,7 +14,7 @@
 #include "core/file_name.hpp"
 #include "core/files/config_dump.hpp"
 #include "core/files/yaml_config.hpp"
-#include "core/files/yaml_position.hpp"
+#include "core/files/yaml_document.hpp"
 #include "estimator/estimator_spec.hpp"
 #include "estimator/registry.hpp"
 #include "sim/robot/scene_route.hpp"
@@ -224,8 +224,8 @@ Error located(const Scenario& scenario, const Error& error) {
 }
 
 Result<void> check_simulation(const Scenario& scenario, std::uint64_t seed) {
-  const auto simulation = Simulation::create(scenario_of_seed(scenario, seed).simulation, seed);
-  if (!simulation) return tl::unexpected(located(scenario, simulation.error()));
+  const auto walk = check_walk(scenario_of_seed(scenario, seed).simulation, seed);
+  if (!walk) return tl::unexpected(located(scenario, walk.error()));
   return {};
 }
 
@@ -257,17 +257,18 @@ Result<Scenario> load_scenario(const fs::path& file, std::span<const std::string
   scenario.folder = folder;
   scenario.overrides.assign(overrides.begin(), overrides.end());
   scenario.name = file.stem().string();
-  const auto run = choose_run(file, overrides, folder, scenario.run, scenario.estimators);
+  const YamlFiles files(folder);
+  const auto run = choose_run(file, overrides, files, scenario.run, scenario.estimators);
   if (!run) return tl::unexpected(located(scenario, run.error()));
   std::vector<AssignedKey> assigned;
   std::size_t of_file = 0;  // of the assigned keys; settings follow
   auto loaded = on_presets(std::move(scenario), assigned,
                            [&](Scenario& into, std::vector<AssignedKey>* keys) {
                              into.run = run->of_file;
-                             auto read = load_config(file, into, keys, folder);
+                             auto read = load_config(file, into, keys, files);
                              if (keys != nullptr) of_file = keys->size();
                              into.run = run->all;
-                             return read ? apply_overrides(into, overrides, keys, folder) : read;
+                             return read ? apply_overrides(into, overrides, keys, files) : read;
                            });
   if (!loaded) return loaded;
   drop_set_draws(std::span(assigned).subspan(of_file), loaded->draw);
@@ -287,13 +288,14 @@ Result<Scenario> default_scenario(std::span<const std::string> overrides) {
   Scenario scenario;
   scenario.name = "default";
   scenario.overrides.assign(overrides.begin(), overrides.end());
-  auto run = choose_run({}, overrides, {}, scenario.run, scenario.estimators);
+  const YamlFiles files;
+  auto run = choose_run({}, overrides, files, scenario.run, scenario.estimators);
   if (!run) return tl::unexpected(run.error());
   scenario.run = std::move(run->all);
   std::vector<AssignedKey> assigned;
   auto loaded = on_presets(std::move(scenario), assigned,
                            [&](Scenario& into, std::vector<AssignedKey>* keys) {
-                             return apply_overrides(into, overrides, keys);
+                             return apply_overrides(into, overrides, keys, files);
                            });
   if (!loaded) return loaded;
   follow_scene(*loaded);

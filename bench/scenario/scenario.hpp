@@ -76,8 +76,8 @@ void describe(Fields& fields, Scenario& scenario);
 /// `error`, whose message begins with a key of the scenario, with the key's file, line and column.
 Error located(const Scenario& scenario, const Error& error);
 
-/// Error, with the line in the scenario's file, when the simulation cannot start on that seed: the
-/// robot would stand in a wall, or a route point lies inside an object.
+/// Error, with the line in the scenario's file, when the route cannot be walked on that seed; see
+/// `check_walk`.
 Result<void> check_simulation(const Scenario& scenario, std::uint64_t seed);
 
 /// Of a scene whose length an override changes while the route stays: the robot turns or ends where

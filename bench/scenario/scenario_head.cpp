@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/scenario/scenario_head.hpp"
 
-#include "core/files/yaml_head.hpp"
+#include "core/files/yaml_config.hpp"
 
 namespace aims {
 
@@ -17,7 +17,7 @@ Result<ScenarioHead> load_scenario_head(const std::filesystem::path& file,
   std::vector<std::string> keys;
   const Fields fields = collect();
   for (const Parameter& each : fields.parameters()) keys.push_back(each.key);
-  if (auto loaded = load_keys(file, keys, collect, folder); !loaded) {
+  if (auto loaded = load_keys(file, keys, collect, YamlFiles(folder)); !loaded) {
     return tl::unexpected(loaded.error());
   }
   return head;

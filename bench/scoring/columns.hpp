@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/metrics/bootstrap.hpp"
+#include "bench/metrics/statistics.hpp"
 #include "bench/scoring/score_list.hpp"
 #include "core/files/csv.hpp"
 #include "core/files/table.hpp"

@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/metrics/bootstrap.hpp"
-#include "bench/metrics/proportion.hpp"
+#include "bench/metrics/statistics.hpp"
 #include "bench/scoring/score_record.hpp"
 
 namespace aims {

@@ -10,7 +10,7 @@
 
 #include "bench/jobs/stored_results.hpp"
 #include "bench/metrics/paired_test.hpp"
-#include "bench/metrics/proportion.hpp"
+#include "bench/metrics/statistics.hpp"
 #include "bench/scoring/score_record.hpp"
 #include "core/files/table.hpp"
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/metrics/bootstrap.hpp"
 #include "bench/metrics/detector.hpp"
 #include "bench/metrics/localizability.hpp"
+#include "bench/metrics/statistics.hpp"
 #include "bench/studies/suite.hpp"
 #include "core/error.hpp"
 #include "estimator/estimator.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/metrics/bootstrap.hpp"
+#include "bench/metrics/statistics.hpp"
 #include "bench/studies/suite.hpp"
 
 namespace aims {

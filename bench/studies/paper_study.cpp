@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "bench/metrics/rank_correlation.hpp"
 #include "bench/scoring/score_statistics.hpp"
 #include "bench/scoring/validity.hpp"
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/metrics/bootstrap.hpp"
+#include "bench/metrics/statistics.hpp"
 #include "bench/scoring/score_record.hpp"
 #include "bench/scoring/score_statistics.hpp"
 #include "bench/studies/suite.hpp"

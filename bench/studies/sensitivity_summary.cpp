@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include "bench/metrics/proportion.hpp"
+#include "bench/metrics/statistics.hpp"
 #include "bench/run/code_version.hpp"
 #include "bench/scoring/columns.hpp"
 #include "bench/scoring/report.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/metrics/bootstrap.hpp"
+#include "bench/metrics/statistics.hpp"
 #include "bench/tuning/effect.hpp"
 #include "bench/tuning/objective.hpp"
 #include "core/error.hpp"

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "core/random.hpp"
+#include "core/text.hpp"
 
 namespace aims {
 namespace {
@@ -27,17 +28,11 @@ std::optional<Number> number_of(std::string_view text) {
   return value;
 }
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-  return text;
-}
-
 std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(separator, begin), text.size());
-    parts.push_back(trimmed(text.substr(begin, end - begin)));
+    parts.push_back(trimmed(text.substr(begin, end - begin), " "));
     begin = end + 1;
   }
   return parts;
@@ -155,8 +150,8 @@ Result<ParameterRange> parse_range(std::string_view text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos || equals == 0) return wrong();
   ParameterRange range;
-  range.key = trimmed(text.substr(0, equals));
-  std::string_view rest = trimmed(text.substr(equals + 1));
+  range.key = trimmed(text.substr(0, equals), " ");
+  std::string_view rest = trimmed(text.substr(equals + 1), " ");
   range.log = rest.starts_with("log(") && rest.ends_with(")");
   if (range.log) rest = rest.substr(4, rest.size() - 5);
   const auto parts = split(rest, range.log ? ',' : ':');

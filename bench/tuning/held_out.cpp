@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "bench/metrics/paired_test.hpp"
-#include "bench/metrics/proportion.hpp"
 #include "bench/metrics/statistics.hpp"
 #include "bench/scoring/score_list.hpp"
 #include "bench/scoring/score_statistics.hpp"

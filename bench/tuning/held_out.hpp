@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "bench/metrics/bootstrap.hpp"
+#include "bench/metrics/statistics.hpp"
 #include "bench/tuning/objective.hpp"
 
 namespace aims {

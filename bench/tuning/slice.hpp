@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/metrics/bootstrap.hpp"
+#include "bench/metrics/statistics.hpp"
 #include "bench/tuning/objective.hpp"
 
 namespace aims {

@@ -27,13 +27,6 @@ CREATE TABLE scores (job INTEGER NOT NULL REFERENCES jobs, key TEXT NOT NULL, va
   PRIMARY KEY (job, key)) WITHOUT ROWID;
 )";
 
-/// The seed that a list names; 0 for what is none.
-std::uint64_t seed_in(const std::string& text) {
-  std::uint64_t seed = 0;
-  std::from_chars(text.data(), text.data() + text.size(), seed);
-  return seed;
-}
-
 void bind_text(SQLite::Statement& statement, int at, const Json& file, const char* key) {
   const auto found = file.is_object() ? file.find(key) : file.end();
   if (found != file.end() && found->is_string()) {
@@ -87,7 +80,7 @@ class Filler {
     job_.bind(3, listed.scenario);
     bind_text(job_, 4, file, "family");
     bind_number(job_, 5, value_in(file, "level", Json()));
-    job_.bind(6, static_cast<std::int64_t>(seed_in(listed.seed)));
+    job_.bind(6, static_cast<std::int64_t>(seed_of(listed)));
     const std::size_t plus = listed.estimator.find('+');
     job_.bind(7, listed.estimator.substr(0, plus));
     job_.bind(8, plus == std::string::npos ? "" : listed.estimator.substr(plus + 1));

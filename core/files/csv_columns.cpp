@@ -80,12 +80,7 @@ class RowReader {
   int line_ = 1;
 };
 
-/// The cell without blanks around it.
-std::string_view trimmed(std::string_view cell) {
-  const std::size_t first = cell.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return cell.substr(first, cell.find_last_not_of(" \t\r") - first + 1);
-}
+constexpr std::string_view kBlanks = " \t\r";
 
 /// The character that separates the cells of a header of another tool.
 char separator_of(std::string_view header) {
@@ -155,10 +150,10 @@ Result<CsvColumns> CsvColumns::parse(std::string_view text, const std::string& n
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < columns; ++i) {
     std::string title(row.cell(0, i));
-    if (foreign) title = trimmed(title);
+    if (foreign) title = trimmed(title, kBlanks);
     if (foreign && title.starts_with('#')) {
       table.index_.emplace(title, table.header_.size());  // by either name
-      title = trimmed(std::string_view(title).substr(1));
+      title = trimmed(std::string_view(title).substr(1), kBlanks);
     }
     if (!only.empty() && std::ranges::find(only, title) == only.end()) continue;
     table.index_.emplace(title, table.header_.size());
@@ -206,7 +201,7 @@ Result<std::vector<double>> CsvColumns::numbers(std::string_view column) const {
   numbers.reserve(rows_);
   for (std::size_t row = 0; row < rows_; ++row) {
     const std::string_view text =
-        foreign_ ? trimmed(cell(row, found->second)) : cell(row, found->second);
+        foreign_ ? trimmed(cell(row, found->second), kBlanks) : cell(row, found->second);
     const auto number = number_of(text);
     if (!number) {
       return failure(line_text(fmt::format("{}:{}: {}: expected a number, found '{}'", name_,
@@ -223,7 +218,7 @@ std::vector<std::string> CsvColumns::texts(std::string_view column) const {
   if (found == index_.end()) return texts;
   for (std::size_t row = 0; row < rows_; ++row) {
     const std::string_view text = cell(row, found->second);
-    texts.emplace_back(foreign_ ? trimmed(text) : text);
+    texts.emplace_back(foreign_ ? trimmed(text, kBlanks) : text);
   }
   return texts;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -15,12 +14,10 @@ class Node;
 
 namespace aims {
 
-/// Where settings go, the list of those that were set (none: null), and where bare names of bases
-/// are looked up (empty: beside their files alone).
+/// Where settings go, and the list of those that were set (none: null).
 struct SettingTarget {
   const CollectFields& collect;
   std::vector<AssignedKey>* assigned = nullptr;
-  std::filesystem::path named;
   std::vector<std::string> only = {};  ///< the only keys of the top level that are set; none: any
 };
 

@@ -5,26 +5,37 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <vector>
+#include <map>
+#include <utility>
 
 #include "core/files/text_file.hpp"
 #include "core/files/yaml_assigner.hpp"
 #include "core/files/yaml_document.hpp"
-#include "core/files/yaml_head.hpp"
-#include "core/files/yaml_size.hpp"
 #include "core/text.hpp"
 
 namespace aims {
-namespace {
 
 namespace fs = std::filesystem;
 
-Result<void> load_file(const fs::path& file, const SettingTarget& target,
-                       std::vector<fs::path> chain);
+struct YamlFiles::Parsed {
+  struct Document {
+    std::string name;  ///< of its file
+    YAML::Node node;
+  };
+  fs::path named;
+  /// Of each file its bases, the first of all in front, and the file itself.
+  std::map<fs::path, std::vector<Document>> files;
+};
 
-/// Loads the document's `base`, if any; `chain` holds the files on the way to it, none for a text.
-Result<void> load_base(const YAML::Node& document, const std::string& name,
-                       const SettingTarget& target, const std::vector<fs::path>& chain) {
+namespace {
+
+/// What a document names as its base, and where.
+struct BaseName {
+  std::string given;
+  std::string place;  ///< "file:line:column"
+};
+
+Result<std::optional<BaseName>> base_of(const YAML::Node& document, const std::string& name) {
   for (const auto& entry : document) {
     if (!entry.first.IsScalar() || entry.first.Scalar() != kBaseKey) continue;
     const std::string here =
@@ -34,34 +45,32 @@ Result<void> load_base(const YAML::Node& document, const std::string& name,
           fmt::format("{}: base: expected a scenario or the path of a YAML file, found {}", here,
                       kind_of(entry.second)));
     }
-    if (chain.empty()) {
-      return failure(fmt::format("{}: base: expected none; only a file may name another", here));
-    }
-    const auto base = find_base(name, entry.second.Scalar(), target.named);
-    if (!base) return failure(fmt::format("{}: {}", here, base.error().message));
-    const fs::path canonical = fs::weakly_canonical(*base);
-    if (std::find(chain.begin(), chain.end(), canonical) != chain.end()) {
-      return failure(fmt::format("{}: base: '{}' is based on itself", here, base->string()));
-    }
-    return load_file(*base, target, chain);
+    return BaseName{entry.second.Scalar(), here};
   }
-  return {};
+  return std::nullopt;
 }
 
-Result<void> load_document(const std::string& text, const std::string& name,
-                           const SettingTarget& target, const std::vector<fs::path>& chain) {
-  const auto document = parse_document(text, name);
-  if (!document) return tl::unexpected(document.error());
-  if (auto based = load_base(*document, name, target, chain); !based) return based;
-  return YamlAssigner({name}, target).assign_map(*document, "");
-}
-
-Result<void> load_file(const fs::path& file, const SettingTarget& target,
-                       std::vector<fs::path> chain) {
+/// Appends the bases of `file` and the file itself; `chain` holds the files that are based on it.
+Result<void> parse_file(const fs::path& file, const fs::path& named, std::vector<fs::path> chain,
+                        std::vector<YamlFiles::Parsed::Document>& parsed) {
   const auto text = read_text_file(file, kLargestYaml);
   if (!text) return tl::unexpected(text.error());
-  chain.push_back(fs::weakly_canonical(file));
-  return load_document(*text, file.string(), target, chain);
+  const auto document = parse_document(*text, file.string());
+  if (!document) return tl::unexpected(document.error());
+  const auto base = base_of(*document, file.string());
+  if (!base) return tl::unexpected(base.error());
+  if (*base) {
+    const auto& [given, here] = **base;
+    const auto found = find_base(file, given, named);
+    if (!found) return failure(fmt::format("{}: {}", here, found.error().message));
+    chain.push_back(fs::weakly_canonical(file));
+    if (std::find(chain.begin(), chain.end(), fs::weakly_canonical(*found)) != chain.end()) {
+      return failure(fmt::format("{}: base: '{}' is based on itself", here, found->string()));
+    }
+    if (auto based = parse_file(*found, named, chain, parsed); !based) return based;
+  }
+  parsed.push_back({file.string(), *document});
+  return {};
 }
 
 /// The outcome of `load`, with exceptions as errors and every message on one line.
@@ -133,23 +142,51 @@ Result<void> apply_setting(const std::string& setting, const Fields& fields,
   return {};
 }
 
+Result<void> load_file(const fs::path& file, const SettingTarget& target,
+                       YamlFiles::Parsed& parsed) {
+  return reported(file.string(), [&]() -> Result<void> {
+    auto found = parsed.files.find(file);
+    if (found == parsed.files.end()) {
+      std::vector<YamlFiles::Parsed::Document> documents;
+      auto done = parse_file(file, parsed.named, {}, documents);
+      if (!done) return done;
+      found = parsed.files.emplace(file, std::move(documents)).first;
+    }
+    for (const YamlFiles::Parsed::Document& each : found->second) {
+      auto assigned = YamlAssigner({each.name}, target).assign_map(each.node, "");
+      if (!assigned) return assigned;
+    }
+    return {};
+  });
+}
+
 }  // namespace
 
+YamlFiles::YamlFiles(fs::path named) : parsed_(std::make_shared<Parsed>()) {
+  parsed_->named = std::move(named);
+}
+
 Result<void> load_config(const fs::path& file, const CollectFields& collect,
-                         std::vector<AssignedKey>* assigned, const fs::path& named) {
-  return reported(file.string(), [&] { return load_file(file, {collect, assigned, named}, {}); });
+                         std::vector<AssignedKey>* assigned, const YamlFiles& files) {
+  return load_file(file, {collect, assigned}, files.parsed());
 }
 
 Result<void> load_keys(const fs::path& file, std::span<const std::string> keys,
-                       const CollectFields& collect, const fs::path& named) {
-  const SettingTarget target = {collect, nullptr, named, {keys.begin(), keys.end()}};
-  return reported(file.string(), [&] { return load_file(file, target, {}); });
+                       const CollectFields& collect, const YamlFiles& files) {
+  return load_file(file, {collect, nullptr, {keys.begin(), keys.end()}}, files.parsed());
 }
 
 Result<void> load_config_text(std::string_view text, const std::string& name,
                               const CollectFields& collect) {
-  return reported(name, [&] {
-    return load_document(std::string(text), name, {collect, nullptr, {}}, {});
+  return reported(name, [&]() -> Result<void> {
+    const auto document = parse_document(std::string(text), name);
+    if (!document) return tl::unexpected(document.error());
+    const auto base = base_of(*document, name);
+    if (!base) return tl::unexpected(base.error());
+    if (*base) {
+      return failure((*base)->place + ": base: expected none; only a file may name another");
+    }
+    return YamlAssigner({name}, {collect}).assign_map(*document, "");
   });
 }
 
@@ -159,14 +196,14 @@ Result<void> load_group_text(std::string_view text, const std::string& name,
     const auto document = parse_document(std::string(text), name);
     if (!document) return tl::unexpected(document.error());
     const YAML::Node alone = group_alone(*document, group);
-    return YamlAssigner({name}, {collect, nullptr, {}}).assign_map(alone, "");
+    return YamlAssigner({name}, {collect}).assign_map(alone, "");
   });
 }
 
 Result<std::optional<std::vector<std::string>>> read_texts(const fs::path& file,
                                                            std::span<const std::string> settings,
                                                            const std::string& key,
-                                                           const fs::path& named) {
+                                                           const YamlFiles& files) {
   std::vector<std::string> texts;
   std::vector<AssignedKey> assigned;
   const CollectFields collect = [&] {
@@ -174,10 +211,8 @@ Result<std::optional<std::vector<std::string>>> read_texts(const fs::path& file,
     fields.texts(key, texts, {});
     return fields;
   };
-  const SettingTarget target = {collect, &assigned, named, {key}};
-  const auto read = [&](const fs::path& from) {
-    return reported(from.string(), [&] { return load_file(from, target, {}); });
-  };
+  const SettingTarget target = {collect, &assigned, {key}};
+  const auto read = [&](const fs::path& from) { return load_file(from, target, files.parsed()); };
   Result<void> done;
   if (!file.empty()) done = read(file);
   for (const std::string& setting : settings) {
@@ -190,13 +225,12 @@ Result<std::optional<std::vector<std::string>>> read_texts(const fs::path& file,
 }
 
 Result<void> apply_overrides(const CollectFields& collect, std::span<const std::string> settings,
-                             std::vector<AssignedKey>* assigned, const fs::path& named) {
-  const SettingTarget target = {collect, assigned, named};
+                             std::vector<AssignedKey>* assigned, const YamlFiles& files) {
+  const SettingTarget target = {collect, assigned};
   Fields fields = collect();
   for (const std::string& setting : settings) {
-    auto applied = setting.starts_with('@')
-                       ? load_config(setting.substr(1), collect, assigned, named)
-                       : apply_setting(setting, fields, target);
+    auto applied = setting.starts_with('@') ? load_file(setting.substr(1), target, files.parsed())
+                                            : apply_setting(setting, fields, target);
     if (!applied) return applied;
     if (setting.starts_with('@') || named_list(setting, fields) != nullptr) {
       fields = collect();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -34,5 +35,19 @@ Result<YAML::Node> parse_value(const std::string& text, const std::string& setti
 /// bare name. Error for none, and for two in `named`.
 Result<std::filesystem::path> find_base(const std::filesystem::path& file, const std::string& given,
                                         const std::filesystem::path& named);
+
+/// Prepends the position to a message that begins with a dotted key ("route.points.0: ..."):
+/// "file:line:column: " of the key, or of the nearest group around it that the file or one of its
+/// bases has; "file: " when none has any part of it. `named` is as of `load_config`.
+std::string with_position(const std::filesystem::path& file, const std::string& message,
+                          const std::filesystem::path& named = {});
+
+/// Bytes of the largest YAML text that is read.
+inline constexpr std::size_t kLargestYaml = std::size_t{512} << 10;
+
+/// Refuses YAML text that would cost the parser far more memory than any configuration needs: above
+/// `kLargestYaml`, or of some length with brackets or list marks nested more than a hundred deep.
+/// Errors: "name:line: ...".
+Result<void> check_yaml_size(std::string_view text, const std::string& name);
 
 }  // namespace aims

@@ -4,14 +4,114 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
-#include "estimator/python/python_batch.hpp"
+#include "core/measurement_members.hpp"
+#include "core/measurements.hpp"
 #include "estimator/python/python_class.hpp"
+#include "estimator/python/python_process.hpp"
 
 namespace aims {
 namespace {
+
+/// Measurements on their way to a Python process, sorted by kind, and their order.
+class PythonBatch {
+ public:
+  void add(Time arrival, const ImuSample& sample);
+  void add(Time arrival, const LegOdometrySample& sample);
+  /// A scan whose points lie in `part` of the memory shared with the process.
+  void add(Time arrival, const LidarScan& scan, const SharedMemory::Part& part);
+
+  std::size_t size() const { return order_.size(); }
+
+  /// The message of what was added; then empty.
+  PipeMessage take();
+
+ private:
+  enum class Event : std::uint8_t { kImu = 1, kLegs = 2, kScan = 3 };
+
+  std::vector<Event> order_;
+  PipeMessage imu_;
+  PipeMessage legs_;
+  PipeMessage scans_;
+};
+
+/// Writes values as cells of eight bytes.
+class Cells {
+ public:
+  explicit Cells(PipeMessage& out) : out_(out) {}
+
+  template <class... Values>
+  bool operator()(const Values&... values) {
+    (write(values), ...);
+    return true;
+  }
+
+ private:
+  template <class Sample>
+  void write(const Sample& sample) {
+    visit_members(*this, sample);
+  }
+  void write(Time time) { out_.add(time); }
+  void write(double value) { out_.add(value); }
+  void write(bool value) { out_.add(value ? 1.0 : 0.0); }
+  void write(const Pose& pose) { out_.add_pose(pose); }
+  void write(const Eigen::Vector3d& vector) {
+    for (const double value : vector) write(value);
+  }
+  template <class T, std::size_t kSize>
+  void write(const std::array<T, kSize>& values) {
+    for (const T& value : values) write(value);
+  }
+  void write(const std::optional<Eigen::Quaterniond>& rotation) {
+    write(rotation.has_value());
+    const Eigen::Quaterniond given = rotation.value_or(Eigen::Quaterniond::Identity());
+    for (const double value : given.coeffs()) write(value);
+  }
+  void write(const std::optional<FootLoads>& loads) {
+    write(loads.has_value());
+    write(loads.value_or(FootLoads{}));
+  }
+
+  PipeMessage& out_;
+};
+
+void PythonBatch::add(Time arrival, const ImuSample& sample) {
+  order_.push_back(Event::kImu);
+  Cells{imu_}(arrival, sample);
+}
+
+void PythonBatch::add(Time arrival, const LegOdometrySample& sample) {
+  order_.push_back(Event::kLegs);
+  Cells{legs_}(arrival, sample);
+}
+
+void PythonBatch::add(Time arrival, const LidarScan& scan, const SharedMemory::Part& part) {
+  order_.push_back(Event::kScan);
+  Cells{scans_}(arrival, scan.stamp, scan.end);
+  for (const std::uint64_t number : {scan.points.size(), part.offset, part.capacity}) {
+    scans_.add(number);
+  }
+}
+
+PipeMessage PythonBatch::take() {
+  PipeMessage message;
+  for (const Event kind : {Event::kImu, Event::kLegs, Event::kScan}) {
+    message.add(static_cast<std::uint64_t>(std::ranges::count(order_, kind)));
+  }
+  message.add(std::uint64_t{order_.size()});
+  for (const Event each : order_) message.add(each);
+  message.pad_to_eight();
+  for (PipeMessage* part : {&imu_, &legs_, &scans_}) {
+    message.append(part->bytes());
+    part->clear();
+  }
+  order_.clear();
+  return message;
+}
 
 /// Measurements that wait for the next scan, at most: bounds what a gap between scans collects.
 constexpr std::size_t kMaxWaiting = 2'000;

@@ -9,7 +9,6 @@
 #include <set>
 #include <span>
 
-#include "bench/metrics/rank_correlation.hpp"
 #include "bench/metrics/statistics.hpp"
 #include "bench/scoring/validity.hpp"
 #include "bench/studies/drawn_groups.hpp"

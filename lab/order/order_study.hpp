@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bench/jobs/stored_results.hpp"
-#include "bench/metrics/bootstrap.hpp"
+#include "bench/metrics/statistics.hpp"
 #include "core/error.hpp"
 #include "core/files/table.hpp"
 

@@ -16,6 +16,7 @@
 #include "core/files/number_lines.hpp"
 #include "core/files/text_file.hpp"
 #include "core/files/yaml_scalars.hpp"
+#include "core/text.hpp"
 #include "recordings/frames/frame_tree.hpp"
 #include "recordings/frames/static_transform.hpp"
 
@@ -23,12 +24,6 @@ namespace aims {
 namespace {
 
 constexpr std::size_t kLargest = std::size_t{1} << 24;  ///< of a calibration [bytes]
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::ranges::transform(out, out.begin(), [](unsigned char c) { return std::tolower(c); });
-  return out;
-}
 
 /// Ending of keys whose seven numbers are a vector and a quaternion (Oxford Spires).
 constexpr std::string_view kVectorAndQuaternion = "_t_xyz_q_xyzw";
@@ -209,8 +204,8 @@ Result<std::string> frame_named(const std::set<std::string>& frames, const std::
   for (const std::string_view word : words) {
     std::vector<std::string> found;
     for (const std::string& frame : frames) {
-      if (lower(frame) == word) return frame;
-      if (lower(frame).find(word) != std::string::npos) found.push_back(frame);
+      if (lower_case(frame) == word) return frame;
+      if (lower_case(frame).find(word) != std::string::npos) found.push_back(frame);
     }
     if (given.empty() && found.size() == 1) return found.front();
     if (given.empty() && found.size() > 1) break;

@@ -3,10 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <numbers>
 
+#include "core/text.hpp"
 #include "recordings/frames/calibration_file.hpp"
 #include "recordings/frames/static_transform.hpp"
 
@@ -42,9 +41,8 @@ Result<Pose> written_pose(const ExtrinsicConfig& config, std::string_view key) {
   return pose;
 }
 
-bool names_imu(std::string frame) {
-  std::ranges::transform(frame, frame.begin(), [](unsigned char c) { return std::tolower(c); });
-  return frame.find("imu") != std::string::npos;
+bool names_imu(std::string_view frame) {
+  return lower_case(frame).find("imu") != std::string::npos;
 }
 
 /// Of a static_transform_publisher, whose frames tell the direction where one names the IMU.

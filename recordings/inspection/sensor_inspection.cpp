@@ -1,18 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recordings/inspection/sensor_inspection.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <string_view>
 #include <utility>
 
-#include "recordings/clouds/cloud_driver.hpp"
 #include "recordings/clouds/point_table.hpp"
 #include "recordings/median.hpp"
 #include "recordings/messages/message_values.hpp"
+#include "recordings/messages/point_layout.hpp"
 #include "recordings/stream/gravity_unit.hpp"
 
 namespace aims {
 namespace {
+
+/// The ROS driver that names the fields of its points so ("ouster-ros"); empty: none that is known.
+std::string_view driver_of(const PointTable& table) {
+  if (table.find("offset_time") != nullptr && table.find("line") != nullptr) {
+    return "livox_ros_driver, CustomMsg";
+  }
+  for (const CloudLayout layout :
+       {CloudLayout::kOuster, CloudLayout::kLivox, CloudLayout::kHesai, CloudLayout::kVelodyne}) {
+    const PointLayout known = point_layout(layout);
+    const bool all = std::ranges::all_of(known.fields, [&](const PointFieldLayout& field) {
+      return table.find(field.name) != nullptr;
+    });
+    if (all) return known.driver;
+  }
+  return {};
+}
 
 constexpr std::uint64_t kMaxClouds = 20;
 constexpr std::size_t kUnitSamples = 100;  ///< of an IMU, to find its unit

@@ -14,12 +14,6 @@ bool is_name_character(char c) { return is_letter(c) || (c >= '0' && c <= '9') |
 
 }  // namespace
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
-
 bool is_name(std::string_view text) {
   return !text.empty() && text.size() <= kMaxNameBytes && is_letter(text[0]) &&
          std::all_of(text.begin(), text.end(), is_name_character);

@@ -16,9 +16,6 @@ inline constexpr std::size_t kMaxDefinedFields = 4096;  ///< of a type
 
 inline constexpr std::string_view kBlank = " \t\r\f\v";  ///< but for ends of lines
 
-/// Without blanks at either end.
-std::string_view trimmed(std::string_view text);
-
 /// A letter, then letters, digits and underscores; 128 bytes at most.
 bool is_name(std::string_view text);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/text.hpp"
 #include "recordings/messages/definition_words.hpp"
 
 namespace aims {
@@ -76,7 +77,7 @@ bool IdlLexer::skip_blanks_and_comments() {
 /// False before a directive that decides what a definition is.
 bool IdlLexer::skip_directive() {
   const std::string_view line = line_at(place_);
-  const std::string_view words = trimmed(line.substr(1));
+  const std::string_view words = trimmed(line.substr(1), kBlank);
   const std::string_view word = words.substr(0, length_of(words, kNameCharacters));
   if (std::ranges::find(kIdleDirectives, word) == kIdleDirectives.end()) return false;
   place_ += line.size();
@@ -110,7 +111,7 @@ IdlToken IdlLexer::next() {
     if (!skip_directive()) return take(IdlTokenKind::kUnreadable, line_at(place_).size());
   }
   const char c = text_[place_];
-  if (at_line_start_ && is_separator(trimmed(line_at(place_)))) return section();
+  if (at_line_start_ && is_separator(trimmed(line_at(place_), kBlank))) return section();
   if (c == '"' || c == '\'') return quoted(c);
   if (kDigits.find(c) != kDigits.npos) {
     return take(IdlTokenKind::kNumber, length_of_number(rest()));

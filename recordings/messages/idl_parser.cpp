@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/text.hpp"
 #include "recordings/messages/definition_words.hpp"
 #include "recordings/messages/idl_lexer.hpp"
 
@@ -117,7 +118,7 @@ class IdlParser {
 
 /// The types that others use follow behind a line of '=' and "IDL: package/msg/Type".
 void IdlParser::section() {
-  const std::string_view line = trimmed(token_.text);
+  const std::string_view line = trimmed(token_.text, kBlank);
   if (!line.starts_with("IDL:")) {
     refuse("'IDL: package/msg/Type'");
     return;

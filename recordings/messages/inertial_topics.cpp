@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recordings/messages/inertial_topics.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cctype>
+
+#include "core/text.hpp"
 
 namespace aims {
 namespace {
@@ -30,8 +30,7 @@ std::optional<std::string> without(std::string name,
 }  // namespace
 
 std::optional<NamedHalf> inertial_half(std::string_view topic) {
-  std::string name(topic);
-  std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string name = lower_case(topic);
   const auto gyro = without(name, kGyro), accelerometer = without(name, kAccelerometer);
   if (gyro.has_value() == accelerometer.has_value()) return std::nullopt;
   if (gyro) return NamedHalf{InertialHalf::kGyro, *gyro};

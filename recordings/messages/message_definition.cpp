@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/text.hpp"
 #include "recordings/messages/definition_words.hpp"
 #include "recordings/messages/idl_definition.hpp"
 
@@ -58,7 +59,7 @@ Result<FieldDefinition> parse_field(std::string_view line, bool bounds) {
   const std::size_t gap = line.find_first_of(kBlank);
   if (gap == std::string_view::npos) return expected_field(line);
   FieldDefinition field;
-  field.name = trimmed(line.substr(gap));
+  field.name = trimmed(line.substr(gap), kBlank);
   if (!split_array(line.substr(0, gap), bounds, field) || !is_type_name(field.type) ||
       !is_name(field.name)) {
     return expected_field(line);
@@ -87,14 +88,14 @@ std::string_view without_default(std::string_view line) {
 /// The value of a constant: a text reaches to the end of the line, with any '#'.
 std::string value_in(std::string_view text, std::string_view type) {
   const bool is_text = type == "string" || type == "wstring";
-  return std::string(trimmed(is_text ? text : text.substr(0, text.find('#'))));
+  return std::string(trimmed(is_text ? text : text.substr(0, text.find('#')), kBlank));
 }
 
 /// Adds the field or the constant of a line.
 Result<void> add_line(std::string_view line, int number, bool ros2, TypeDefinition& type) {
   const std::size_t sign = constant_sign(line);
   const bool constant = sign != std::string_view::npos;
-  std::string_view declared = trimmed(line.substr(0, constant ? sign : line.find('#')));
+  std::string_view declared = trimmed(line.substr(0, constant ? sign : line.find('#')), kBlank);
   if (declared.empty()) return {};
   // The name of a default text may hold a '=': "string frame "a=b"".
   const bool has_default = ros2 && without_default(declared).size() < declared.size();
@@ -150,12 +151,12 @@ Result<std::vector<TypeDefinition>> parse_definition(std::string_view given, std
   while (!text.empty()) {
     ++number;
     const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = trimmed(text.substr(0, end));
+    const std::string_view line = trimmed(text.substr(0, end), kBlank);
     text.remove_prefix(std::min(end + 1, text.size()));
     if (is_separator(line)) {
       expect_name = true;
     } else if (expect_name && line.starts_with(kSectionWord)) {
-      const std::string name = plain_type_name(trimmed(line.substr(kSectionWord.size())));
+      const std::string name = plain_type_name(trimmed(line.substr(kSectionWord.size()), kBlank));
       if (!is_type_name(name)) return refuse(number, "expected 'MSG: package/Type'");
       if (types.size() >= kMaxDefinedTypes) return refuse(number, "too many types");
       types.push_back({name, {}, {}});

@@ -4,20 +4,103 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <deque>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
+#include <vector>
 
 #include "recordings/messages/message_decoder.hpp"
 #include "recordings/messages/message_types.hpp"
+#include "recordings/pcap/ouster_packets.hpp"
 #include "recordings/pcap/packet_decoder.hpp"
-#include "recordings/pcap/packet_types.hpp"
-#include "recordings/pcap/recorded_metadata.hpp"
 
 namespace aims {
 namespace {
+
+namespace fs = std::filesystem;
+
+/// Whose packets a message holds.
+enum class LidarMaker : std::uint8_t { kVelodyne, kHesai, kOuster, kRobosense };
+
+/// How a message type holds packets.
+struct PacketType {
+  std::string_view type;
+  LidarMaker maker = LidarMaker::kVelodyne;
+  std::string_view packets;  ///< field of the array; empty: the message is one packet
+  std::string_view data;
+  std::string_view size;  ///< field of the used size of `data`; empty: all of it
+};
+
+constexpr auto kTypes = std::to_array<PacketType>({
+    {"velodyne_msgs/VelodyneScan", LidarMaker::kVelodyne, "packets", "data", ""},
+    {"pandar_msgs/PandarScan", LidarMaker::kHesai, "packets", "data", "size"},
+    {"hesai_lidar/PandarScan", LidarMaker::kHesai, "packets", "data", "size"},
+    {"hesai_ros_driver/UdpFrame", LidarMaker::kHesai, "packets", "data", "size"},
+    {"rslidar_msgs/rslidarScan", LidarMaker::kRobosense, "packets", "data", ""},
+    {"rslidar_msgs/rslidarPacket", LidarMaker::kRobosense, "", "data", ""},
+    {"rslidar_msg/RslidarScan", LidarMaker::kRobosense, "packets", "data", ""},
+    {"rslidar_msg/RslidarPacket", LidarMaker::kRobosense, "", "data", ""},
+    {"ouster_ros/PacketMsg", LidarMaker::kOuster, "", "buf", ""},
+    {"ouster_sensor_msgs/PacketMsg", LidarMaker::kOuster, "", "buf", ""},
+});
+
+/// Null for other types.
+const PacketType* packet_type_of(std::string_view type) {
+  const auto* const found = std::ranges::find(kTypes, type, &PacketType::type);
+  return found == kTypes.end() ? nullptr : &*found;
+}
+
+/// A RoboSense has a topic of points, and one named like it with "difop" of information: the topic
+/// of the points that a topic of information belongs to; itself, if it has points.
+std::string topic_of_points(const std::string& topic) {
+  const std::size_t at = topic.find("difop");
+  return at == std::string::npos || at == 0 ? topic : topic.substr(0, at - 1);
+}
+
+/// The metadata in the recording: the text of the first such topic.
+std::optional<std::string> recorded_metadata(MessageSource& source) {
+  std::optional<std::string> text;
+  for (const BagConnection& each : source.connections()) {
+    if (each.type != "std_msgs/String" || !each.topic.ends_with("metadata")) continue;
+    source.select({&each.topic, 1});
+    source.rewind();
+    const auto message = source.next();
+    const auto decoder = MessageDecoder::create(each.type, each.definition, each.format);
+    if (!message || !*message || !decoder) continue;
+    const auto view = decoder->decode((*message)->data);
+    if (!view) continue;
+    if (const auto data = view->text("data")) text = std::string(*data);
+    if (text) break;
+  }
+  std::vector<std::string> all;
+  for (const BagConnection& each : source.connections()) all.push_back(each.topic);
+  source.select(all);
+  source.rewind();
+  return text;
+}
+
+/// The metadata of an Ouster whose packets are on `topic`: a std_msgs/String of a topic that ends
+/// in "metadata", else NAME.json beside the recording. Rewinds it. Error for neither.
+Result<OusterMetadata> recorded_ouster_metadata(MessageSource& source, const std::string& topic) {
+  if (const auto text = recorded_metadata(source)) {
+    return parse_ouster_metadata(*text, source.name() + ": metadata of the Ouster");
+  }
+  const fs::path beside = fs::path(source.name()).replace_extension(".json");
+  std::error_code ignored;
+  if (fs::exists(beside, ignored)) return read_ouster_metadata(beside);
+  return failure(
+      fmt::format("{}: topic '{}' holds packets of an Ouster: expected its metadata as "
+                  "std_msgs/String on a topic that ends in 'metadata', or as {} beside it",
+                  source.name(), topic, beside.filename().string()));
+}
 
 constexpr std::string_view kFramesTopic = "/tf_static";
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <map>
 #include <optional>
@@ -17,6 +16,7 @@
 
 #include "core/files/atomic_file.hpp"
 #include "core/files/yaml_scalars.hpp"
+#include "core/text.hpp"
 #include "recordings/messages/message_definition.hpp"
 #include "recordings/messages/quality_of_service.hpp"
 
@@ -36,15 +36,10 @@ std::string scalar(const Scalars& scalars, const std::string& key) {
   return found == scalars.end() ? std::string() : found->second;
 }
 
-std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
 /// Whether the recording is compressed; error for a compression that cannot be read.
 Result<bool> is_compressed(const Scalars& scalars, const fs::path& metadata) {
-  const std::string mode = lower(scalar(scalars, "compression_mode"));
-  const std::string format = lower(scalar(scalars, "compression_format"));
+  const std::string mode = lower_case(scalar(scalars, "compression_mode"));
+  const std::string format = lower_case(scalar(scalars, "compression_format"));
   if (mode.empty() || mode == "none") return false;
   if (mode != "file" && mode != "message") {
     return failure(fmt::format("{}: compression_mode: expected NONE, FILE or MESSAGE, found '{}'",

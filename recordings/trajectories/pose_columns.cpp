@@ -7,7 +7,29 @@
 #include <utility>
 #include <vector>
 
+#include "core/text.hpp"
+
 namespace aims {
+
+bool MotiveHeader::take(const std::vector<std::string_view>& cells) {
+  const auto has = [&](std::string_view word) { return std::ranges::count(cells, word) > 0; };
+  const bool groups = has("Rotation") && has("Position");
+  begun_ = begun_ || groups || (!cells.empty() && cells[0] == "Format Version");
+  if (!begun_ || !names_.empty()) return false;
+  if (has("Millimeters")) unit_ = "mm";
+  if (has("Centimeters")) unit_ = "cm";
+  if (groups) groups_.assign(cells.begin(), cells.end());
+  if (groups_.empty() || cells.empty() || cells[0] != "Frame") return true;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    std::string name(cells[i]);
+    const bool grouped = i < groups_.size() && !groups_[i].empty();
+    if (grouped) name = groups_[i] + '.' + name;
+    if (grouped && groups_[i] == "Position") name += " [" + unit_ + ']';
+    names_.push_back(std::move(name));
+  }
+  return true;
+}
+
 namespace {
 
 bool is_one_of(std::string_view name, std::initializer_list<std::string_view> names) {
@@ -22,15 +44,12 @@ struct Heading {
 Heading heading_of(std::string_view cell) {
   Heading heading;
   const std::size_t bracket = std::min(cell.find_first_of("[("), cell.size());
-  heading.name = cell.substr(0, bracket);
+  heading.name = lower_case(cell.substr(0, bracket));
   if (bracket < cell.size()) {
     const std::string_view rest = cell.substr(bracket + 1);
-    heading.unit = rest.substr(0, rest.find_first_of("])"));
+    heading.unit = lower_case(rest.substr(0, rest.find_first_of("])")));
   }
-  const auto lower = [](unsigned char c) { return static_cast<char>(std::tolower(c)); };
-  std::ranges::transform(heading.name, heading.name.begin(), lower);
   std::ranges::replace(heading.name, '/', '.');  // as PlotJuggler writes fields
-  std::ranges::transform(heading.unit, heading.unit.begin(), lower);
   while (!heading.name.empty() && heading.name.back() == ' ') heading.name.pop_back();
   const std::size_t last = heading.name.rfind('_');
   if (heading.unit.empty() && last != std::string::npos && last > 0) {

@@ -16,7 +16,6 @@
 #include "core/files/iso_time.hpp"
 #include "core/files/number_lines.hpp"
 #include "core/text.hpp"
-#include "recordings/trajectories/motive_header.hpp"
 #include "recordings/trajectories/pose_columns.hpp"
 
 namespace aims {
@@ -25,10 +24,10 @@ namespace {
 constexpr std::size_t kColumns = 8;
 constexpr std::size_t kPositionColumns = 4;
 
-std::string_view trimmed(std::string_view cell) {
-  const std::size_t first = cell.find_first_not_of(" \t\r\"#%");
-  if (first == std::string_view::npos) return {};
-  return cell.substr(first, cell.find_last_not_of(" \t\r\"") - first + 1);
+/// A cell without blanks, quotes and the sign of a comment in front.
+std::string_view bare(std::string_view cell) {
+  const std::size_t begin = std::min(cell.find_first_not_of(" \t\r\"#%"), cell.size());
+  return trimmed(cell.substr(begin), " \t\r\"");
 }
 
 /// A number whose decimals may follow a comma.
@@ -61,13 +60,13 @@ std::vector<std::string_view> cells_of(std::string_view line, char separator) {
   std::vector<std::string_view> cells;
   if (separator == ' ') {
     for (const std::string_view word : words_of(line)) {
-      if (const auto cell = trimmed(word); !cell.empty()) cells.push_back(cell);
+      if (const auto cell = bare(word); !cell.empty()) cells.push_back(cell);
     }
     return cells;
   }
   while (true) {
     const std::size_t end = std::min(line.find(separator), line.size());
-    cells.push_back(trimmed(line.substr(0, end)));
+    cells.push_back(bare(line.substr(0, end)));
     if (end == line.size()) return cells;
     line.remove_prefix(end + 1);
   }

@@ -13,15 +13,62 @@
 #include "core/files/output_folder.hpp"
 #include "render/film/ffmpeg.hpp"
 #include "render/film/film_movie.hpp"
-#include "render/film/vector_pictures.hpp"
+#include "render/film/filmed_sequence.hpp"
 #include "render/film/webp.hpp"
 #include "render/plots/canvas.hpp"
+#include "render/plots/map_picture.hpp"
 
 namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+constexpr const char* kStartAligned = "estimates aligned by their start alone";
+
+TrajectoryPlot trajectories_of(const FilmedSequence& sequence) {
+  TrajectoryPlot plot;
+  plot.title = sequence.scenario + ": estimated trajectories";
+  plot.subtitle = fmt::format("seed {}  ·  {}", sequence.seed, kStartAligned);
+  plot.scene = sequence.scene;
+  plot.truth = sequence.truth;
+  plot.estimates = sequence.estimates;
+  plot.waypoint_times = sequence.waypoint_times;
+  return plot;
+}
+
+MapPicture map_of(const FilmedSequence& sequence) {
+  MapPicture map;
+  map.title = fmt::format("{}: map of {}", sequence.scenario, sequence.estimates.front().name);
+  map.frame = "aligned with the truth at the start";
+  for (const GrownPoint& point : sequence.map) map.points.push_back(point.position);
+  map.trajectory = sequence.estimates.front().trajectory;
+  return map;
+}
+
+/// Writes trajectories, and NAME-map-top and NAME-map-side when there is a map, each with each of
+/// the endings (".svg", ".pdf"). Returns the names of the files.
+Result<std::vector<std::string>> write_vector_pictures(const FilmedSequence& sequence,
+                                                       const std::vector<std::string>& endings,
+                                                       const std::filesystem::path& folder) {
+  std::vector<std::string> files;
+  const TrajectoryPlot trajectories = trajectories_of(sequence);
+  const bool mapped = !sequence.map.empty() && !sequence.estimates.empty();
+  const MapPicture map = mapped ? map_of(sequence) : MapPicture{};
+  const std::string name = mapped ? sequence.estimates.front().name : std::string();
+  for (const std::string& ending : endings) {
+    files.push_back("trajectories" + ending);
+    auto written = write_trajectory_plot(folder / files.back(), trajectories);
+    for (const auto& [view, suffix] :
+         {std::pair{MapView::kAbove, "-map-top"}, {MapView::kSide, "-map-side"}}) {
+      if (!mapped || !written) continue;
+      files.push_back(name + suffix + ending);
+      written = write_map_picture(folder / files.back(), view, map);
+    }
+    if (!written) return tl::unexpected(written.error());
+  }
+  return files;
+}
 
 constexpr int kMostFrames = 2000;
 constexpr double kStillFraction = 0.75;  ///< of the time in motion, when the still is taken

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <mutex>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "bench/run/sequence.hpp"
@@ -13,6 +15,7 @@
 #include "bench/scoring/estimator_files.hpp"
 #include "bench/scoring/score_record.hpp"
 #include "bench/scoring/start_anchor.hpp"
+#include "core/background_tasks.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/manifest.hpp"
 #include "core/files/tum.hpp"
@@ -21,7 +24,6 @@
 #include "render/plots/map_grid.hpp"
 #include "render/plots/trajectory_plot.hpp"
 #include "render/results/estimator_pictures.hpp"
-#include "render/results/picture_list.hpp"
 #include "render/scene/robot_pictures.hpp"
 #include "sim/environment/scene_config.hpp"
 #include "sim/robot/robot_config.hpp"
@@ -30,6 +32,42 @@ namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// A picture, or some that are drawn together.
+struct Picture {
+  std::filesystem::path file;  ///< the first of them
+  std::function<Result<void>()> draw;
+};
+
+/// Draws the pictures, on two threads when `threads` is more than one: begin with what takes
+/// longest. The pixels do not depend on it; `observer` is called by one thread at a time. After an
+/// error no other picture is begun; returns that of the first in the list.
+Result<void> draw_all(std::span<const Picture> pictures, int threads,
+                      const DrawObserver& observer) {
+  std::vector<Result<void>> drawn(pictures.size());
+  std::mutex mutex;  // of what follows, and of the observer
+  std::size_t next = 0;
+  bool failed = false;
+  const auto draw_some = [&] {
+    std::unique_lock lock(mutex);
+    while (next < pictures.size() && !failed) {
+      const std::size_t own = next++;
+      announce(observer, pictures[own].file);
+      lock.unlock();
+      drawn[own] = pictures[own].draw();
+      lock.lock();
+      failed = failed || !drawn[own];
+    }
+  };
+  BackgroundTasks second(threads);
+  second.add(draw_some);
+  draw_some();
+  second.wait();
+  for (const Result<void>& each : drawn) {
+    if (!each) return each;
+  }
+  return {};
+}
 
 /// Pictures show trajectories at this spacing.
 constexpr Duration kRunSpacing = 100 * kMillisecond;

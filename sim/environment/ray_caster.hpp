@@ -31,6 +31,10 @@ struct alignas(64) HitPacket {
   Lanes texture{};
 };
 
+inline Eigen::Vector3f normal_of(const HitPacket& hits, int lane) {
+  return {hits.normal_x[lane], hits.normal_y[lane], hits.normal_z[lane]};
+}
+
 /// The first hit of one ray.
 struct RayHit {
   double distance = 0.0;                              ///< [m]

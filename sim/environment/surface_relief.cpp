@@ -17,10 +17,6 @@ constexpr float kUpright = 0.5F;
 
 using Lanes = SurfaceTable::Lanes;
 
-Eigen::Vector3f normal_of(const HitPacket& hits, int lane) {
-  return {hits.normal_x[lane], hits.normal_y[lane], hits.normal_z[lane]};
-}
-
 bool on_one_face(const HitPacket& hits, int a, int b) {
   return hits.surface[a] == hits.surface[b] && hits.normal_x[a] == hits.normal_x[b] &&
          hits.normal_y[a] == hits.normal_y[b] && hits.normal_z[a] == hits.normal_z[b];

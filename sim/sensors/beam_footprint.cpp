@@ -21,10 +21,6 @@ Eigen::Vector3f direction_of(const RayPacket& rays, int lane) {
   return {rays.direction_x[lane], rays.direction_y[lane], rays.direction_z[lane]};
 }
 
-Eigen::Vector3f normal_of(const HitPacket& hits, int lane) {
-  return {hits.normal_x[lane], hits.normal_y[lane], hits.normal_z[lane]};
-}
-
 /// Distance at which ray b meets the plane of hit a; infinite when it leads away from it.
 float distance_to_plane(const RayPacket& rays_a, const HitPacket& hits_a, int a,
                         const RayPacket& rays_b, int b) {

@@ -50,6 +50,17 @@ TEST(Text, AMessageIsOneLineOfBoundedLength) {
   EXPECT_TRUE(shown.ends_with("word last"));
 }
 
+TEST(Text, IsTrimmedOfBlanksAtItsEndsAlone) {
+  EXPECT_EQ(trimmed("\t a b "), "a b");
+  EXPECT_EQ(trimmed(" a\r", " \r"), "a");
+  EXPECT_EQ(trimmed(" a\r"), "a\r");
+  EXPECT_EQ(trimmed(" \t "), "");
+}
+
+TEST(Text, InLowerCaseKeepsWhatIsNoLetterOfAscii) {
+  EXPECT_EQ(lower_case("IMU_Link[\xC3\x84]"), "imu_link[\xC3\x84]");
+}
+
 TEST(DecimalText, WhatRoundsToZeroHasNoSign) {
   EXPECT_EQ(decimal_text(-0.0, 0), "0");
   EXPECT_EQ(decimal_text(-0.004, 2), "0.00");

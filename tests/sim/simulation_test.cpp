@@ -228,6 +228,17 @@ TEST(Simulation, RefusesARobotThatStartsInAWall) {
   EXPECT_NE(simulation.error().message.find("route.points.0"), std::string::npos);
 }
 
+TEST(Simulation, ARouteIsCheckedWithoutBuildingTheRobot) {
+  SimulationConfig config = short_walk();
+  config.robot.model = "none";
+  EXPECT_FALSE(Simulation::create(config, 1));
+  EXPECT_TRUE(check_walk(config, 1));
+  config.route.points[0].y = 1.05;
+  const auto in_a_wall = check_walk(config, 1);
+  ASSERT_FALSE(in_a_wall);
+  EXPECT_NE(in_a_wall.error().message.find("route.points.0"), std::string::npos);
+}
+
 TEST(Simulation, RefusesARouteWithoutLengthAndAStepThatDividesNoPeriod) {
   SimulationConfig config = short_walk();
   config.route.points[1] = config.route.points[0];

@@ -8,17 +8,6 @@
 
 namespace aims::fast_lio2 {
 
-namespace {
-
-PoseCovariance stated(const Belief& belief) {
-  const Eigen::Matrix3d R = belief.state.T_world_body.R();
-  const auto& P = belief.covariance;
-  return {R.transpose() * part(P, Error::kPosition, Error::kPosition) * R,
-          part(P, Error::kRotation, Error::kRotation)};
-}
-
-}  // namespace
-
 std::vector<SeriesInfo> scan_series() {
   return {{"points_in", "-", "points after the voxel filter"},
           {"points_used", "-", "points with an accepted plane in the last iteration"},
@@ -37,7 +26,7 @@ ScanRow scan_row(const Update& update, std::size_t points, double variance, Time
   const double mean =
       distances.size() > 0 ? distances.cwiseAbs().mean() : std::numeric_limits<double>::quiet_NaN();
   return {stamp,
-          stated(update.belief),
+          points::pose_covariance<Error>(update.belief),
           {static_cast<double>(points), static_cast<double>(distances.size()),
            static_cast<double>(update.iterations), update.converged ? 1.0 : 0.0, mean,
            constraint.smallest / variance, constraint.condition, constraint.localizability}};

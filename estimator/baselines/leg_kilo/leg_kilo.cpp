@@ -5,18 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "estimator/baselines/points/error_blocks.hpp"
 #include "estimator/baselines/points/translation_constraint.hpp"
 
 namespace aims::leg_kilo {
 
 namespace {
-
-PoseCovariance stated(const Belief& belief) {
-  const Eigen::Matrix3d R = belief.state.T_world_body.R();
-  const auto& P = belief.covariance;
-  return {R.transpose() * part(P, Error::kPosition, Error::kPosition) * R,
-          part(P, Error::kRotation, Error::kRotation)};
-}
 
 /// The normals of the planes as rows, each divided by the deviation of its residual if `weighted`.
 Eigen::Matrix<double, Eigen::Dynamic, 3> normals_of(const ScanReport& report, double factor,
@@ -60,7 +54,7 @@ ScanRow scan_row(const ScanReport& report, const Belief& belief, double variance
                           ? static_cast<double>(report.standing_feet) / report.imu_samples
                           : std::numeric_limits<double>::quiet_NaN();
   return {stamp,
-          stated(belief),
+          points::pose_covariance<Error>(belief),
           {static_cast<double>(report.points), static_cast<double>(report.matches.size()),
            static_cast<double>(report.updates), feet, mean_distance(report), information.smallest,
            information.condition, directions.localizability}};

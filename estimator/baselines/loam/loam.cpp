@@ -7,6 +7,77 @@
 
 namespace aims::loam {
 
+features::SolverResult ScanToScan::update(features::RingFeatures& scan) {
+  features::SolverResult result;
+  if (started_) {
+    result.pose = motion_;
+    if (static_cast<int>(edges_.size()) > config_.min_edges &&
+        static_cast<int>(planes_.size()) > config_.min_planes) {
+      const auto associate = [&](const Pose& motion) -> features::FeatureMatches {
+        return {line_matches(scan.sharp, motion, config_.deskew, edges_, config_.matching),
+                plane_matches(scan.flat, motion, config_.deskew, planes_, config_.matching)};
+      };
+      result = features::solve_pose(motion_, associate, config_.solver);
+    }
+    motion_ = features::plausible_motion(result.pose) ? result.pose : Pose();
+    T_odom_lidar_ = T_odom_lidar_ * motion_;
+    T_odom_lidar_.rotation.normalize();
+  }
+  if (config_.deskew) {
+    move_to_scan_end(scan.less_sharp, motion_);
+    move_to_scan_end(scan.less_flat, motion_);
+  }
+  edges_.set(scan.less_sharp);
+  planes_.set(scan.less_flat);
+  started_ = true;
+  return result;
+}
+
+namespace {
+
+features::FeatureCloud transformed(features::FeatureCloud cloud, const Pose& pose) {
+  for (features::FeaturePoint& point : cloud) {
+    point.position = (pose * point.position.cast<double>()).cast<float>();
+  }
+  return cloud;
+}
+
+}  // namespace
+
+ScanToMap::ScanToMap(const ScanToMapConfig& config)
+    : config_(config),
+      edges_(config.cube_size, config.edge_voxel),
+      planes_(config.cube_size, config.plane_voxel) {}
+
+features::SolverResult ScanToMap::update(const Pose& T_odom_lidar,
+                                         const features::RingFeatures& scan) {
+  const features::FeatureCloud edges =
+      features::voxel_centroids(scan.less_sharp, config_.edge_voxel);
+  const features::FeatureCloud planes =
+      features::voxel_centroids(scan.less_flat, config_.plane_voxel);
+  features::SolverResult result;
+  result.pose = to_map(T_odom_lidar);
+  reference_.build(edges_.around(result.pose.translation), planes_.around(result.pose.translation));
+  if (reference_.sufficient(config_.matching)) {
+    const auto associate = [&](const Pose& T_map_lidar) {
+      return reference_.match(edges, planes, T_map_lidar, config_.matching);
+    };
+    result = features::solve_pose(result.pose, associate, config_.solver);
+    T_map_odom_ = result.pose * T_odom_lidar.inverse();
+    T_map_odom_.rotation.normalize();
+  }
+  edges_.insert(transformed(edges, result.pose));
+  planes_.insert(transformed(planes, result.pose));
+  return result;
+}
+
+std::vector<Eigen::Vector3f> ScanToMap::points() const {
+  std::vector<Eigen::Vector3f> points = edges_.points();
+  const std::vector<Eigen::Vector3f> planes = planes_.points();
+  points.insert(points.end(), planes.begin(), planes.end());
+  return points;
+}
+
 namespace {
 
 using Series = ReportedSeries<ScanReport>;

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "estimator/diagnostics.hpp"
+
 namespace aims::points {
 
 /// Three entries of an error vector, from a block's first on.
@@ -23,6 +25,16 @@ auto part(Eigen::Matrix<double, kSize, kSize>& matrix, int row, int column) {
 template <int kSize>
 auto part(const Eigen::Matrix<double, kSize, kSize>& matrix, int row, int column) {
   return matrix.template block<3, 3>(row, column);
+}
+
+/// Position in the body frame and rotation of a filter with a state and the covariance of its
+/// error, whose blocks `Error` names.
+template <class Error, class Belief>
+PoseCovariance pose_covariance(const Belief& belief) {
+  const Eigen::Matrix3d R = belief.state.T_world_body.R();
+  const auto& P = belief.covariance;
+  return {R.transpose() * part(P, Error::kPosition, Error::kPosition) * R,
+          part(P, Error::kRotation, Error::kRotation)};
 }
 
 }  // namespace aims::points

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/metrics/bootstrap.hpp"
 
 #include <gtest/gtest.h>
 

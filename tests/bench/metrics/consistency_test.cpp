@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "bench/metrics/chi_square.hpp"
+#include "bench/metrics/statistics.hpp"
 #include "core/random.hpp"
 
 namespace aims {

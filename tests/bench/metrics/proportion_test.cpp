@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/metrics/proportion.hpp"
+#include "bench/metrics/statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/metrics/rank_correlation.hpp"
+#include "bench/metrics/statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,7 @@
 #include <initializer_list>
 
 #include "bench/scenario/scenario.hpp"
+#include "sim/simulation.hpp"
 
 namespace aims {
 namespace {
@@ -16,7 +17,7 @@ void expect_every_scenario_to_be_walkable(std::initializer_list<std::uint64_t> s
     const auto scenario = load_scenario(file, {});
     ASSERT_TRUE(scenario.has_value()) << scenario.error().message;
     for (const std::uint64_t seed : seeds) {
-      const auto ready = check_simulation(*scenario, seed);
+      const auto ready = Simulation::create(scenario_of_seed(*scenario, seed).simulation, seed);
       EXPECT_TRUE(ready.has_value()) << file << " seed " << seed << ": " << ready.error().message;
     }
   }

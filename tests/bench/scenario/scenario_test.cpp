@@ -2,10 +2,15 @@
 #include "bench/scenario/scenario.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/inotify.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <map>
 #include <set>
+#include <span>
 
 #include "bench/scenario/catalogue.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -65,6 +70,35 @@ TEST_F(ScenarioFolder, ItsDescriptionNamesWhatWasSetOnTopOfTheFile) {
   write("plain.yaml", "description: A hall");
   EXPECT_EQ(description({"lidar.columns=450"}),
             "A hall. With changed settings: lidar.columns=450.");
+}
+
+/// How often `work` opens the file.
+template <class Work>
+std::size_t openings(const fs::path& file, const Work& work) {
+  const int inotify = inotify_init1(IN_NONBLOCK);
+  EXPECT_GE(inotify_add_watch(inotify, file.c_str(), IN_OPEN | IN_CLOSE), 0);
+  work();
+  std::array<inotify_event, 100> events{};
+  const auto bytes = ::read(inotify, events.data(), sizeof(events));
+  ::close(inotify);
+  const std::span found(events.data(), std::max<ssize_t>(bytes, 0) / sizeof(inotify_event));
+  return std::ranges::count_if(found, [](const auto& each) { return (each.mask & IN_OPEN) != 0; });
+}
+
+TEST_F(ScenarioFolder, EachFileOfAScenarioIsReadOnce) {
+  write("plain.yaml", "{run: [lio], seed: 4}");
+  write("half.yaml", "{base: plain, level: 0.5}");
+  write("settings.yaml", "{run: [leg], seed: 5}");
+  const std::vector<std::string> settings = {"@" + (folder_.path() / "settings.yaml").string()};
+  for (const char* name : {"plain.yaml", "half.yaml", "settings.yaml"}) {
+    const std::size_t opened = openings(folder_.path() / name, [&] {
+      const auto scenario = load_scenario(folder_.path() / "half.yaml", settings);
+      ASSERT_TRUE(scenario) << scenario.error().message;
+      EXPECT_EQ(scenario->run, std::vector<std::string>{"leg"});
+      EXPECT_EQ(scenario->seed, 5);
+    });
+    EXPECT_EQ(opened, 1U) << name;
+  }
 }
 
 TEST_F(ScenarioFolder, RefusesTwoFilesOfOneName) {

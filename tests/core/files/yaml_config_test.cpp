@@ -188,7 +188,7 @@ TEST(YamlConfig, ABaseMayBeABareName) {
   const auto eta_of = [&](const char* name, const char* text) {
     Sample c;
     const auto file = write(directory.path() / "own" / name, text);
-    const auto loaded = load_config(file, c, nullptr, shipped);
+    const auto loaded = load_config(file, c, nullptr, YamlFiles(shipped));
     EXPECT_TRUE(loaded) << loaded.error().message;
     return c.inner.eta;
   };
@@ -198,16 +198,17 @@ TEST(YamlConfig, ABaseMayBeABareName) {
   Sample c;
   const auto child = write(directory.path() / "own" / "child.yaml", "base: plan\n");
   EXPECT_EQ(
-      load_config(child, c, nullptr, shipped).error().message,
+      load_config(child, c, nullptr, YamlFiles(shipped)).error().message,
       fmt::format("{0}/child.yaml:1:7: base: no such file '{0}/plan', and no plan.yaml in {1}",
                   (directory.path() / "own").string(), shipped.string()));
   write(shipped / "plain.yaml", "inner: {eta: 7}\n");
   write(child, "base: plain\n");
   EXPECT_FALSE(eta_of("beside.yaml", "name: x\n") == 9.0);
   fs::remove(directory.path() / "own" / "plain.yaml");
-  EXPECT_NE(
-      load_config(child, c, nullptr, shipped).error().message.find("expected the path of one"),
-      std::string::npos);
+  EXPECT_NE(load_config(child, c, nullptr, YamlFiles(shipped))
+                .error()
+                .message.find("expected the path of one"),
+            std::string::npos);
 }
 
 TEST(YamlConfig, RefusesWhatWouldCostTheParserItsMemory) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/files/yaml_position.hpp"
+#include "core/files/yaml_document.hpp"
 
 #include <gtest/gtest.h>
 
