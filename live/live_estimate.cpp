@@ -48,7 +48,7 @@ Result<void> LiveEstimate::run() {
   if (auto ok = log_.save_summary(reader_, estimator_.result(), false); !ok) return ok;
   std::vector<Delivery> deliveries;
   bool more = true;
-  while (more) {
+  while (more && !estimator_.result().failure) {
     const auto advanced = reader_.advance(kBatch, deliveries);
     if (!advanced) return tl::unexpected(advanced.error());
     more = *advanced;
@@ -61,11 +61,13 @@ Result<void> LiveEstimate::run() {
     }
     save_now_and_then();
   }
+  if (estimator_.result().failure) tell_invalid("the estimator has failed", 0.0);
   ended_ = true;
   estimator_.finish();
   take_rows();
   if (auto ok = log_.save_map(placed(estimator_.map_points())); !ok) return ok;
   if (auto ok = log_.save_summary(reader_, estimator_.result(), true); !ok) return ok;
+  if (const auto& failed = estimator_.result().failure) return tl::unexpected(*failed);
   return log_.state();
 }
 
@@ -205,7 +207,10 @@ void LiveEstimate::publish(const HealthRow& row) {
 
 void LiveEstimate::tell_silence(double seconds) {
   const bool published = transport_.topics().contains(reader_.setup().topics.imu);
-  const char* reason = published ? "no messages, though there are publishers" : "no messages";
+  tell_invalid(published ? "no messages, though there are publishers" : "no messages", seconds);
+}
+
+void LiveEstimate::tell_invalid(const char* reason, double seconds) {
   HealthRow row{last_ ? last_->stamp : 0, HealthState::kInvalid, {reason}, NAN};
   row.stamp += from_seconds(seconds);
   silent_at_ = row.stamp;

@@ -40,7 +40,8 @@ class LiveEstimate {
                Estimator& estimator, LiveLog log, LiveStart start);
 
   /// Estimates until the reader ends, then processes what the estimator has queued and completes
-  /// the log. Error when the log could not be written, which is a warning meanwhile.
+  /// the log. Error when the estimator failed, or when the log could not be written, which is a
+  /// warning meanwhile.
   Result<void> run();
 
   /// Writes the map to the log and prints where.
@@ -58,6 +59,8 @@ class LiveEstimate {
  private:
   /// Prints the warning; its reason is in the health from now on.
   void warn(const ReadingWarning& warning);
+  /// Publishes and logs that the estimate is invalid so long after its last pose [s].
+  void tell_invalid(const char* reason, double seconds);
   void take(const Delivery& delivery);
   void take_rows();
   void warn_of_motion();

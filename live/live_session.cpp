@@ -57,7 +57,9 @@ Result<std::unique_ptr<Estimator>> make_live_estimator(const LiveConfig& config,
   if (!spec) return tl::unexpected(spec.error());
   const auto own = config_with(*spec, config.estimators);
   if (!own) return tl::unexpected(own.error());
-  return (*own)->create(setup.rig);
+  auto made = (*own)->create(setup.rig);
+  if (const auto& broken = made->result().failure) return tl::unexpected(*broken);
+  return made;
 }
 
 /// The estimates of a node, one after the other: each begins as if the program had just started.

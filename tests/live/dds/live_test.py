@@ -436,6 +436,20 @@ class LiveEstimate(unittest.TestCase):
         self.assertGreater(len(places(live.poses())), 60, live.log())
         self.assertIn(b"the recording cannot be written", content("full/aims_d.health.csv"))
 
+    def test_an_estimator_that_fails_ends_the_program(self):
+        if subprocess.run(["/usr/bin/python3", "-c", "import numpy"], check=False, capture_output=True).returncode:
+            self.skipTest("python3-numpy is not installed")
+        with open("unlucky.py", "w", encoding="utf-8") as file:
+            file.write("class Unlucky:\n def __init__(self, rig): pass\n"
+                       " def add_scan(self, *scan): raise ValueError('out of luck')\n")
+        live = Live("walk.mcap", "failed", ["--estimator", "mine=python:unlucky.Unlucky"],
+                    limit=["env", "AIMS_PYTHON=/usr/bin/python3"])
+        self.assertEqual(live.live.wait(PATIENCE_S), 2, live.log())
+        live.kill()
+        live.play.communicate()
+        self.assertIn("aims_live: python:unlucky.Unlucky: add_scan: ValueError: out of luck", live.log())
+        self.assertIn(b"invalid,the estimator has failed", content("failed/mine.health.csv"))
+
     def test_each_setting_of_the_unit_is_one_word(self):
         file = os.path.join(os.path.dirname(SCENARIO), "..", "..", "live", "aims-live.service")
         with open(file, encoding="utf-8") as unit:
