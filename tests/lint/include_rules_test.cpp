@@ -144,8 +144,8 @@ const std::vector<Confinement> kConfined = {
     {"webp/", {"render/film"}, false},
     {"CLI/", {"cli", "lab", "live", "tests/independent"}, true},
     {"ros/ros.h", {"live"}, false},
-    {"dds/", {"live/dds"}, false},
-    {"httplib.h", {"live/watch"}, false},
+    {"dds/", {"live"}, false},
+    {"httplib.h", {"live"}, false},
     {"pybind11/", {"python"}, true},
 };
 
