@@ -12,39 +12,34 @@ Time wall_time() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
 }
 
-Time steady_time() {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
-}
-
 /// Whether `newer` replaces `older`, which waits.
-bool Inbox::replaces(const LiveMessage& newer, const Waiting& older) const {
-  return newer.connection == older.message.connection && newer.data.size() >= kLargeSize &&
-         older.message.data.size() >= kLargeSize && newest_ - older.since > max_wait_large_;
+bool Inbox::replaces(const LiveMessage& newer, const LiveMessage& older) const {
+  return newer.connection == older.connection && newer.data.size() >= kLargeSize &&
+         older.data.size() >= kLargeSize && newest_ - older.arrival > max_wait_large_;
 }
 
-void Inbox::push(LiveMessage message, Time now) {
+void Inbox::push(LiveMessage message) {
   const std::lock_guard lock(mutex_);
-  newest_ = now;
+  newest_ = message.arrival;
   const std::size_t before = messages_.size();
   if (message.data.size() >= kLargeSize) {
     std::erase_if(messages_, [&](const auto& waiting) { return replaces(message, waiting); });
   }
-  while (!messages_.empty() && newest_ - messages_.front().since > kMaxWaitSmall) {
+  while (!messages_.empty() && newest_ - messages_.front().arrival > kMaxWaitSmall) {
     messages_.pop_front();
   }
   dropped_ += before - messages_.size();
-  messages_.push_back({std::move(message), now});
+  messages_.push_back(std::move(message));
   arrived_.notify_one();
 }
 
 std::optional<LiveMessage> Inbox::pop() {
   while (!messages_.empty()) {
-    Waiting oldest = std::move(messages_.front());
+    LiveMessage message = std::move(messages_.front());
     messages_.pop_front();
     const bool replaced = std::ranges::any_of(
-        messages_, [&](const Waiting& newer) { return replaces(newer.message, oldest); });
-    if (!replaced) return std::move(oldest.message);
+        messages_, [&](const auto& waiting) { return replaces(waiting, message); });
+    if (!replaced) return message;
     ++dropped_;
   }
   return std::nullopt;

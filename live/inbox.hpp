@@ -18,9 +18,6 @@ namespace aims {
 /// This computer's time, since the epoch.
 Time wall_time();
 
-/// Since an instant of this computer, by a clock that is never set.
-Time steady_time();
-
 /// A message from the network.
 struct LiveMessage {
   std::shared_ptr<const BagConnection> connection;  ///< of one publisher; its id is 0
@@ -39,8 +36,7 @@ class Inbox {
   static constexpr Duration kMaxWaitLarge = 2 * kSecond;
   static constexpr Duration kMaxWaitSmall = 20 * kSecond;
 
-  /// `now`: of reception, by a clock that is never set; arrivals may be those of other clocks.
-  void push(LiveMessage message, Time now = steady_time());
+  void push(LiveMessage message);
   /// The oldest message that is not replaced; nothing after `seconds`, or once `running` is false.
   std::optional<LiveMessage> wait(double seconds, const std::function<bool()>& running);
 
@@ -51,17 +47,13 @@ class Inbox {
   std::size_t dropped() const;
 
  private:
-  struct Waiting {
-    LiveMessage message;
-    Time since = 0;
-  };
-  bool replaces(const LiveMessage& newer, const Waiting& older) const;
+  bool replaces(const LiveMessage& newer, const LiveMessage& older) const;
   std::optional<LiveMessage> pop();
 
   mutable std::mutex mutex_;
   std::condition_variable arrived_;
-  std::deque<Waiting> messages_;
-  Time newest_ = 0;  ///< reception
+  std::deque<LiveMessage> messages_;
+  Time newest_ = 0;  ///< arrival
   Duration max_wait_large_ = kMaxWaitLarge;
   std::size_t dropped_ = 0;
 };
