@@ -8,8 +8,9 @@
 #include <utility>
 
 #include "core/text.hpp"
-#include "live/live_session.hpp"
-#include "live/live_source.hpp"
+#include "live/program.hpp"
+#include "recordings/messages/message_decoder.hpp"
+#include "recordings/messages/message_types.hpp"
 
 namespace aims {
 namespace {
@@ -22,7 +23,8 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 /// The text of a std_msgs/String; empty for what is none.
 std::string text_of(const LiveMessage& message) {
-  const auto decoder = decoder_of(*message.connection);
+  const BagConnection& from = *message.connection;
+  const auto decoder = MessageDecoder::create(from.type, from.definition, from.format);
   if (!decoder) return {};
   const auto view = decoder->decode(message.data);
   return view ? std::string(view->text("data").value_or("")) : "";
@@ -34,7 +36,7 @@ Commands::Commands(Transport& transport)
     : transport_(transport), topic_(transport.resolved("~command")) {
   std::signal(SIGUSR1, [](int) { signalled_save = true; });
   std::signal(SIGUSR2, [](int) { signalled_calibrate = true; });
-  transport_.subscribe(topic_, "std_msgs/String");
+  transport_.subscribe(topic_, string_type().name);
 }
 
 std::optional<LiveMessage> Commands::wait(double seconds) {

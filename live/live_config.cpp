@@ -35,8 +35,8 @@ Result<std::filesystem::path> find_robot(const std::string& robot, const fs::pat
       }
     }
   }
-  return failure(fmt::format("robot '{}' is unknown: expected {} or a .yaml file", robot,
-                             fmt::join(known, ", ")));
+  return failure(fmt::format("robot '{}' is unknown: expected {}{}a .yaml file", robot,
+                             fmt::join(known, ", "), known.empty() ? "" : " or "));
 }
 
 Result<LiveConfig> load_live_config(const LiveOptions& options) {

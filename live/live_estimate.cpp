@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
-#include "live/live_session.hpp"
 #include "live/odometry_content.hpp"
+#include "live/program.hpp"
 
 namespace aims {
 namespace {
@@ -22,16 +22,6 @@ constexpr Duration kMapPeriod = 5 * kSecond;  ///< of the published map
 constexpr double kSummaryPeriod = 10.0;
 constexpr double kMapFilePeriod = 60.0;
 constexpr double kOverload = 5.0;  ///< after the last message dropped [s]
-
-/// Whether both say the same, but for its figures.
-bool alike(const HealthRow& a, const HealthRow& b) {
-  const auto words = [](const HealthRow& row) {
-    std::string text = fmt::format("{}", fmt::join(row.reasons, "; "));
-    std::erase_if(text, [](unsigned char each) { return std::isdigit(each) != 0; });
-    return text;
-  };
-  return a.state == b.state && words(a) == words(b);
-}
 
 void print_counts(const std::map<std::string, int>& counts) {
   for (const auto& [event, count] : counts) print_line(fmt::format("note: {}: {}", event, count));
@@ -58,11 +48,11 @@ Result<void> LiveEstimate::run() {
   if (auto ok = log_.save_summary(reader_, estimator_.result(), false); !ok) return ok;
   std::vector<Delivery> deliveries;
   bool more = true;
-  while (more) {
+  while (more && !estimator_.result().failure) {
     const auto advanced = reader_.advance(kBatch, deliveries);
     if (!advanced) return tl::unexpected(advanced.error());
     more = *advanced;
-    warn_of_reading();
+    warn_of_changes();
     for (const Delivery& delivery : deliveries) take(delivery);
     deliveries.clear();
     for (const std::string& problem : transport_.take_problems()) {
@@ -71,10 +61,13 @@ Result<void> LiveEstimate::run() {
     }
     save_now_and_then();
   }
+  if (estimator_.result().failure) tell_invalid("the estimator has failed", 0.0);
+  ended_ = true;
   estimator_.finish();
   take_rows();
   if (auto ok = log_.save_map(placed(estimator_.map_points())); !ok) return ok;
   if (auto ok = log_.save_summary(reader_, estimator_.result(), true); !ok) return ok;
+  if (const auto& failed = estimator_.result().failure) return tl::unexpected(*failed);
   return log_.state();
 }
 
@@ -103,24 +96,18 @@ void LiveEstimate::take_rows() {
     auto motion = source_ != nullptr ? source_->motion(pose.stamp) : std::nullopt;
     if (motion && moved_) motion = placed_at(start_.T_odom_start, *motion);
     publications_.pose(pose, motion);
-    timing_.published(pose.stamp);
+    if (!ended_) timing_.published(pose.stamp);
     last_ = pose;
   }
   if (!poses.empty()) publish_points(poses.back().stamp);
   std::vector<HealthRow> health(new_health.begin(), new_health.end());
   publish_health(health);
   poses_ += poses.size();
-  log(poses, health);
+  log_.add(poses, health);
   // All rows are taken; the estimator forgets them, so that memory does not grow.
   estimator_.forget_rows();
   taken_poses_ = result.trajectory.size();
   taken_health_ = result.health.size();
-}
-
-void LiveEstimate::log(std::span<const StampedPose> poses, std::span<const HealthRow> health) {
-  const bool written = log_.state().has_value();
-  log_.add(poses, health);
-  if (written && !log_.state()) warn({"the log cannot be written", log_.state().error().message});
 }
 
 void LiveEstimate::warn(const ReadingWarning& warning) {
@@ -138,11 +125,24 @@ void LiveEstimate::warn_of_motion() {
 }
 
 /// Of what no longer is as it was at the start.
-void LiveEstimate::warn_of_reading() {
+void LiveEstimate::warn_of_changes() {
   const auto& warnings = reader_.setup().warnings;
   for (; read_warnings_ < warnings.size(); ++read_warnings_) {
-    if (start_.concerns(warnings[read_warnings_])) warn(warnings[read_warnings_]);
+    const ReadingWarning& found = warnings[read_warnings_];
+    // Clouds that were dropped here are named where that happens.
+    const bool named = transport_.dropped() > 0 && found.sensor == WarnedSensor::kLidar &&
+                       found.reason.starts_with("messages of the ");
+    if (start_.concerns(found) && !named) warn(found);
   }
+  warn_of_file(log_.state(), "the log cannot be written");
+  warn_of_file(start_.recorder->state(), "the recording cannot be written");
+}
+
+/// A full disk is a warning once; the estimate goes on.
+void LiveEstimate::warn_of_file(const Result<void>& state, const char* reason) {
+  if (state) return;
+  const auto told = std::ranges::find(start_.warnings, reason, &ReadingWarning::reason);
+  if (told == start_.warnings.end()) warn({reason, state.error().message});
 }
 
 /// Messages that were dropped leave gaps, which the estimator takes for silent sensors: names the
@@ -157,17 +157,30 @@ void LiveEstimate::name_overload(HealthRow& row) {
   if (row.state == HealthState::kHealthy) row.state = HealthState::kDegraded;
 }
 
-/// Adds what node and reading know to the reasons; publishes.
+/// What node and reading know.
+std::vector<std::string> LiveEstimate::reasons_of_node() const {
+  std::vector<std::string> reasons = start_.clocks->differing();
+  for (const ReadingWarning& each : start_.warnings) reasons.push_back(each.reason);
+  const TopicsConfig& topics = reader_.setup().topics;
+  for (const std::string& topic : std::set{topics.lidar, topics.imu, topics.leg_odometry,
+                                           topics.joint_states, topics.contacts}) {
+    const std::size_t count = transport_.publishers(topic);
+    if (count > 1) reasons.push_back(fmt::format("{} has {} publishers", topic, count));
+  }
+  return reasons;
+}
+
+/// Adds the reasons of the node; publishes. What was queued before a silence changes nothing of it.
 void LiveEstimate::publish_health(std::vector<HealthRow>& rows) {
   for (HealthRow& row : rows) {
     name_overload(row);
-    std::vector<std::string> reasons = start_.clocks->differing();
-    for (const ReadingWarning& each : start_.warnings) reasons.push_back(each.reason);
+    const std::vector<std::string> reasons = reasons_of_node();
     if (row.state != HealthState::kStarting && !reasons.empty()) {
       row.state = std::max(row.state, HealthState::kDegraded);
       row.reasons.insert(row.reasons.end(), reasons.begin(), reasons.end());
     }
-    publish(row);
+    const HealthRow held = hold_.held(row);
+    if (row.stamp >= silent_at_) publish(held);
   }
 }
 
@@ -194,11 +207,15 @@ void LiveEstimate::publish(const HealthRow& row) {
 
 void LiveEstimate::tell_silence(double seconds) {
   const bool published = transport_.topics().contains(reader_.setup().topics.imu);
-  const char* reason = published ? "no messages, though there are publishers" : "no messages";
+  tell_invalid(published ? "no messages, though there are publishers" : "no messages", seconds);
+}
+
+void LiveEstimate::tell_invalid(const char* reason, double seconds) {
   HealthRow row{last_ ? last_->stamp : 0, HealthState::kInvalid, {reason}, NAN};
   row.stamp += from_seconds(seconds);
+  silent_at_ = row.stamp;
   publish(row);
-  log({}, std::span(&row, 1));
+  log_.add({}, std::span(&row, 1));
 }
 
 std::vector<Eigen::Vector3f> LiveEstimate::placed(std::vector<Eigen::Vector3f> points) const {

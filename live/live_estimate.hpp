@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,8 +13,10 @@
 #include "estimator/motion.hpp"
 #include "live/clock_watch.hpp"
 #include "live/commands.hpp"
+#include "live/health_hold.hpp"
 #include "live/live_log.hpp"
 #include "live/publications.hpp"
+#include "live/recorder.hpp"
 #include "live/scan_timing.hpp"
 #include "recordings/stream/recording_reader.hpp"
 
@@ -23,6 +26,7 @@ namespace aims {
 struct LiveStart {
   Pose T_odom_start;                     ///< its start in the frame of what is published
   const ClockWatch* clocks = nullptr;    ///< of its topics
+  const Recorder* recorder = nullptr;    ///< of its topics
   std::vector<ReadingWarning> warnings;  ///< their reasons are in its health
   bool standing = false;                 ///< the robot should stand: motion is a warning
   /// Whether a warning found later concerns the estimator.
@@ -36,7 +40,8 @@ class LiveEstimate {
                Estimator& estimator, LiveLog log, LiveStart start);
 
   /// Estimates until the reader ends, then processes what the estimator has queued and completes
-  /// the log. Error when the log could not be written, which is a warning meanwhile.
+  /// the log. Error when the estimator failed, or when the log could not be written, which is a
+  /// warning meanwhile.
   Result<void> run();
 
   /// Writes the map to the log and prints where.
@@ -45,9 +50,6 @@ class LiveEstimate {
   /// Publishes and logs that no message has come for so long [s]; prints when that begins.
   void tell_silence(double seconds);
 
-  /// Prints the warning; its reason is in the health from now on.
-  void warn(const ReadingWarning& warning);
-
   /// The last pose, as published; none: nothing.
   const std::optional<StampedPose>& last() const { return last_; }
 
@@ -55,12 +57,17 @@ class LiveEstimate {
   void print_summary(bool source_time) const;
 
  private:
+  /// Prints the warning; its reason is in the health from now on.
+  void warn(const ReadingWarning& warning);
+  /// Publishes and logs that the estimate is invalid so long after its last pose [s].
+  void tell_invalid(const char* reason, double seconds);
   void take(const Delivery& delivery);
   void take_rows();
-  void log(std::span<const StampedPose> poses, std::span<const HealthRow> health);
   void warn_of_motion();
-  void warn_of_reading();
+  void warn_of_changes();
+  void warn_of_file(const Result<void>& state, const char* reason);
   void name_overload(HealthRow& row);
+  std::vector<std::string> reasons_of_node() const;
   void publish_health(std::vector<HealthRow>& rows);
   void publish(const HealthRow& row);
   void publish_points(Time stamp);
@@ -77,8 +84,11 @@ class LiveEstimate {
   bool moved_;  ///< whether it does not start at the origin
   ScanTiming timing_;
   std::optional<StampedPose> last_;
+  HealthHold hold_;
   std::optional<HealthRow> printed_;
-  std::string warning_ = "none";  ///< of the network, the last one
+  Time silent_at_ = std::numeric_limits<Time>::min();  ///< last row of a silence
+  bool ended_ = false;                                 ///< the rest is what was queued
+  std::string warning_ = "none";                       ///< of the network, the last one
   Time next_map_ = 0;
   std::size_t dropped_ = 0;  ///< messages, at the last row
   std::optional<Stopwatch> since_dropped_;

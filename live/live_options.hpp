@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
-#include <optional>
+#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
-
 namespace aims {
 
-/// Options of the node.
+/// Options of a live estimate.
 struct LiveOptions {
   std::string estimator = "aims_d";
   std::string robot;                   ///< name of a robot's file, or its path; empty: none
@@ -22,25 +19,13 @@ struct LiveOptions {
   std::string odom_frame = "odom";  ///< of the published poses
   std::string body_frame = "imu";   ///< child frame: the IMU's
   bool tf = false;                  ///< also publish odom_frame -> body_frame on /tf
-  double settle = 3.0;     ///< time gathered before topics, units and extrinsics are decided [s]
-  double patience = 0.0;   ///< timeout without the needed topics [s]; 0: none
-  double max_wait = 0.05;  ///< a cloud that has waited longer is dropped for a newer one [s]
-  // Of DDS alone.
-  std::optional<std::uint32_t> domain;  ///< none: $ROS_DOMAIN_ID, or 0
-  std::string node = "aims";            ///< namespace of the published topics
-  bool source_time = false;             ///< arrivals are the publishers' times of sending
-  std::string tell;                     ///< command to send to a running node; empty: estimate
+  double settle = 3.0;       ///< time gathered before topics, units and extrinsics are decided [s]
+  double patience = 0.0;     ///< timeout without the needed topics [s]; 0: none
+  double max_wait = 0.05;    ///< a cloud that has waited longer is dropped for a newer one [s]
+  bool source_time = false;  ///< arrivals are the publishers' times of sending; DDS alone
 };
 
-enum class LiveNetwork { kRos1, kDds };
-
-/// Parsed arguments.
-struct LiveCommand {
-  LiveOptions options;
-  std::string help;  ///< not empty: print it and exit
-};
-
-/// Parses arguments without ROS's own. Error: one line.
-Result<LiveCommand> parse_live_arguments(std::vector<std::string> arguments, LiveNetwork network);
+/// Declares the options of every network.
+void add_live_options(CLI::App& app, LiveOptions& options);
 
 }  // namespace aims

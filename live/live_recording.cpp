@@ -5,15 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <memory>
 #include <set>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "core/stopwatch.hpp"
-#include "live/inbox.hpp"
 #include "recordings/messages/message_values.hpp"
 #include "recordings/stream/decided_start.hpp"
 #include "recordings/topics/recording_topics.hpp"
@@ -24,8 +21,8 @@ namespace {
 constexpr double kPoll = 0.2;          ///< between queries for new topics [s]
 constexpr double kReportPeriod = 5.0;  ///< [s]
 constexpr Duration kCatchUp = 2 * kSecond;
-constexpr Duration kMaxGathered =
-    10 * kSecond;  ///< of the messages gathered, however long it takes
+constexpr Duration kMaxGathered = 10 * kSecond;  ///< of messages, however long it takes
+constexpr std::size_t kMostTransforms = 1000;    ///< messages
 
 /// Types that estimators do not use: large ones, and what every node of ROS 2 publishes.
 constexpr std::array<std::string_view, 8> kIgnoredTypes = {
@@ -45,8 +42,9 @@ bool is_estimated(const std::string& topic, const std::map<std::string, std::str
 /// The frames that a message of /tf_static places; empty: it is none.
 std::string placed_frames(const LiveMessage& message) {
   std::string frames;
-  if (message.connection->topic != kStaticTransformsTopic) return frames;
-  const auto decoder = decoder_of(*message.connection);
+  const BagConnection& from = *message.connection;
+  if (from.topic != kStaticTransformsTopic) return frames;
+  const auto decoder = MessageDecoder::create(from.type, from.definition, from.format);
   if (!decoder) return frames;
   const auto view = decoder->decode(message.data);
   if (!view) return frames;
@@ -58,25 +56,50 @@ std::string placed_frames(const LiveMessage& message) {
 
 /// Keeps a message of /tf_static, instead of the last one of its frames.
 void keep(const LiveMessage& message, LiveTransforms* transforms) {
-  constexpr std::size_t kMost = 1000;
-  if (transforms == nullptr) return;
+  if (transforms == nullptr || transforms->size() >= kMostTransforms) return;
   const std::string frames = placed_frames(message);
-  if (frames.empty() || transforms->size() >= kMost) return;
-  transforms->insert_or_assign(frames, message);
+  if (!frames.empty()) transforms->insert_or_assign(frames, message);
 }
 
-/// Collects the messages of all topics of the last `kMaxGathered`, and all latched and fixed ones.
+/// Collects the messages of all topics of the last `kMaxGathered`, and all latched and fixed ones,
+/// until they can be read.
 class Gathering {
  public:
-  Gathering(Transport& transport, Commands& commands, LiveTransforms* transforms)
-      : transport_(transport), commands_(commands), transforms_(transforms) {
-    if (transforms != nullptr) before_ = *transforms;
+  Gathering(Transport& transport, Commands& commands, const LiveRecordingOptions& options)
+      : transport_(transport), commands_(commands), options_(options) {
+    if (options.transforms != nullptr) before_ = *options.transforms;
     // To receive latched messages again, where another estimate went before.
     for (const auto& [topic, type] : transport.topics()) {
       if (!is_command(topic)) transport.unsubscribe(topic);
     }
   }
 
+  /// The reader once it can be opened. Error when the node ends before, or after the timeout.
+  Result<RecordingReader> wait_to_open() {
+    const Stopwatch since_start;
+    Stopwatch since_report;
+    std::string missing = "no messages yet";
+    while (transport_.running()) {
+      collect();
+      auto reader = try_open();
+      if (reader) return reader;
+      missing = reader.error().message;
+      if (options_.patience > 0.0 && since_start.seconds() > options_.patience) {
+        return failure(fmt::format("timeout after {:g} s: {}", options_.patience, missing));
+      }
+      if (since_report.seconds() < kReportPeriod) continue;
+      options_.waiting(missing);
+      since_report = Stopwatch();
+    }
+    return failure(fmt::format("stopped before the estimate started: {}", missing));
+  }
+
+  /// Shows the observer what was heard, which is to tell why it did not start.
+  void show() const {
+    if (options_.observer) LiveSource(messages_, {}).go_live(options_.observer);
+  }
+
+ private:
   /// Collects messages for `kPoll`.
   void collect() {
     const auto topics = transport_.topics();
@@ -89,35 +112,11 @@ class Gathering {
     while (timer.seconds() < kPoll) {
       // Time 0: a simulated clock that has not started.
       if (auto message = commands_.wait(kPoll); message && message->arrival > 0) {
-        keep(*message, transforms_);
+        keep(*message, options_.transforms);
         messages_->push_back(std::move(*message));
       }
       if (!transport_.running()) return;
     }
-    trim();
-  }
-
-  /// Adds the fixed transforms heard before, behind those heard now, which come first.
-  void add_earlier() {
-    for (auto& [frames, message] : std::exchange(before_, {})) {
-      message.arrival = messages_->back().arrival;
-      messages_->push_back(std::move(message));
-    }
-  }
-
-  Duration span() const {
-    return messages_->empty() ? 0 : messages_->back().arrival - messages_->front().arrival;
-  }
-
-  const std::shared_ptr<LiveMessages>& messages() const { return messages_; }
-  const std::set<std::string>& subscribed() const { return subscribed_; }
-
- private:
-  bool is_command(const std::string& topic) const {
-    return topic == transport_.resolved("~command");
-  }
-
-  void trim() {
     if (span() <= kMaxGathered) return;
     const Time oldest = messages_->back().arrival - kMaxGathered;
     std::erase_if(*messages_, [&](const LiveMessage& message) {
@@ -126,111 +125,93 @@ class Gathering {
     });
   }
 
+  Result<RecordingReader> try_open() {
+    if (const std::string missing = missing_messages(); !missing.empty()) return failure(missing);
+    // The fixed transforms heard before, behind those heard now, which come first.
+    for (auto& [frames, message] : std::exchange(before_, {})) {
+      message.arrival = messages_->back().arrival;
+      messages_->push_back(std::move(message));
+    }
+    auto source = std::make_unique<LiveSource>(messages_, following());
+    LiveSource& live = *source;
+    auto reader = RecordingReader::open(std::move(source), options_.config);
+    if (!reader) return reader;
+    if (auto ok = options_.check_setup(reader->setup()); !ok) return tl::unexpected(ok.error());
+    // A record has each topic to its end: the truth too, which the estimate does not read. The next
+    // estimate needs fixed transforms, which may be sent but once.
+    for (const std::string& topic : subscribed_) {
+      const bool needed = live.selects(topic) || topic == kStaticTransformsTopic;
+      if (!options_.observer && !needed) transport_.unsubscribe(topic);
+    }
+    live.go_live(options_.observer, options_.clocks);
+    return reader;
+  }
+
+  /// Why the messages are not enough; empty: they are.
+  std::string missing_messages() {
+    const std::string own = transport_.resolved("~odometry");
+    if (transport_.topics().contains(own)) {
+      return fmt::format(
+          "another program publishes {} (for 10 s after it was killed): end it, or "
+          "choose another --node",
+          own);
+    }
+    if (span() >= options_.settle) return {};
+    if (span() > 0) return fmt::format("{:.1f} s of messages so far", to_seconds(span()));
+    if (transport_.format() == kRos1Format || !messages_->empty() || subscribed_.empty()) {
+      return "no messages yet";
+    }
+    return fmt::format(
+        "no messages yet, though there are publishers of {} topics: is their clock set? DDS "
+        "drops what is sent from 2038 on",
+        subscribed_.size());
+  }
+
+  /// Waits for messages. Clouds may wait no longer than `max_wait` once none is waiting, at the
+  /// latest after `kCatchUp`: before, the estimator catches up with what was gathered.
+  LiveSource::Wait following() {
+    return [&transport = transport_, &commands = commands_, max_wait = options_.max_wait,
+            kept = options_.transforms, late = true,
+            first = std::optional<Time>()]() mutable -> std::optional<LiveMessage> {
+      while (transport.running() && !commands.restarts()) {
+        auto message = commands.wait(late ? 0.0 : kPoll);
+        if (message && !first) first = message->arrival;
+        if (late && (!message || message->arrival > *first + kCatchUp)) {
+          transport.limit_wait(max_wait);
+          late = false;
+        }
+        if (!message) continue;
+        keep(*message, kept);
+        return message;
+      }
+      return std::nullopt;
+    };
+  }
+
+  Duration span() const {
+    return messages_->empty() ? 0 : messages_->back().arrival - messages_->front().arrival;
+  }
+
+  bool is_command(const std::string& topic) const {
+    return topic == transport_.resolved("~command");
+  }
+
   Transport& transport_;
   Commands& commands_;
-  LiveTransforms* transforms_;
+  const LiveRecordingOptions& options_;
   LiveTransforms before_;  ///< heard before this gathering
   std::shared_ptr<LiveMessages> messages_ = std::make_shared<LiveMessages>();
   std::set<std::string> subscribed_;
 };
 
-/// Waits for messages. Clouds may wait no longer than `max_wait` once none is waiting, at the
-/// latest after `kCatchUp`: before, the estimator catches up with what was gathered.
-LiveSource::Wait waiting_for(Transport& transport, Commands& commands,
-                             const LiveRecordingOptions& options) {
-  return [&transport, &commands, max_wait = options.max_wait, kept = options.transforms,
-          late = true, first = std::optional<Time>()]() mutable -> std::optional<LiveMessage> {
-    while (transport.running() && !commands.restarts()) {
-      auto message = commands.wait(late ? 0.0 : kPoll);
-      if (message && !first) first = message->arrival;
-      if (late && (!message || message->arrival > *first + kCatchUp)) {
-        transport.limit_wait(max_wait);
-        late = false;
-      }
-      if (!message) continue;
-      keep(*message, kept);
-      return message;
-    }
-    return std::nullopt;
-  };
-}
-
-Result<RecordingReader> try_open(Transport& transport, Commands& commands,
-                                 const Gathering& gathering, const RecordingConfig& config,
-                                 const LiveRecordingOptions& options,
-                                 const SetupCheck& check_setup) {
-  auto wait = waiting_for(transport, commands, options);
-  auto source = std::make_unique<LiveSource>(gathering.messages(), wait);
-  LiveSource& live = *source;
-  auto reader = RecordingReader::open(std::move(source), config);
-  if (!reader) return reader;
-  if (auto ok = check_setup(reader->setup()); !ok) return tl::unexpected(ok.error());
-  // A record has each topic to its end: the truth too, which the estimate does not read. The next
-  // estimate needs fixed transforms, which may be sent but once.
-  for (const std::string& topic : gathering.subscribed()) {
-    const bool needed = live.selects(topic) || topic == kStaticTransformsTopic;
-    if (!options.observer && !needed) transport.unsubscribe(topic);
-  }
-  live.go_live(options.observer, options.clocks);
-  return reader;
-}
-
 }  // namespace
 
-namespace {
-
-/// The reader once it can be opened. Error when the node ends before, or after `patience`.
-Result<RecordingReader> wait_to_open(Transport& transport, Commands& commands, Gathering& gathering,
-                                     const RecordingConfig& config,
-                                     const LiveRecordingOptions& options,
-                                     const SetupCheck& check_setup,
-                                     const std::function<void(const std::string&)>& waiting) {
-  const Stopwatch since_start;
-  Stopwatch since_report;
-  const std::string own = transport.resolved("~odometry");
-  std::string missing = "no messages yet";
-  while (transport.running()) {
-    gathering.collect();
-    if (transport.topics().contains(own)) {
-      missing = fmt::format(
-          "another program publishes {} (for 10 s after it was killed): end it, or "
-          "choose another --node",
-          own);
-    } else if (gathering.span() >= options.settle) {
-      gathering.add_earlier();
-      auto reader = try_open(transport, commands, gathering, config, options, check_setup);
-      if (reader) return reader;
-      missing = reader.error().message;
-    } else if (gathering.span() > 0) {
-      missing = fmt::format("{:.1f} s of messages so far", to_seconds(gathering.span()));
-    } else if (transport.cdr() && gathering.messages()->empty() &&
-               !gathering.subscribed().empty()) {
-      missing = fmt::format(
-          "no messages yet, though there are publishers of {} topics: is their clock set? DDS "
-          "drops what is sent from 2038 on",
-          gathering.subscribed().size());
-    }
-    if (options.patience > 0.0 && since_start.seconds() > options.patience) {
-      return failure(fmt::format("timeout after {:g} s: {}", options.patience, missing));
-    }
-    if (since_report.seconds() < kReportPeriod) continue;
-    waiting(missing);
-    since_report = Stopwatch();
-  }
-  return failure(fmt::format("stopped before the estimate started: {}", missing));
-}
-
-}  // namespace
-
-Result<RecordingReader> open_live_recording(
-    Transport& transport, Commands& commands, const RecordingConfig& config,
-    const LiveRecordingOptions& options, const SetupCheck& check_setup,
-    const std::function<void(const std::string&)>& waiting) {
+Result<RecordingReader> open_live_recording(Transport& transport, Commands& commands,
+                                            const LiveRecordingOptions& options) {
   transport.limit_wait(std::max(options.max_wait, Inbox::kMaxWaitLarge));  // while it decides
-  Gathering gathering(transport, commands, options.transforms);
-  auto reader = wait_to_open(transport, commands, gathering, config, options, check_setup, waiting);
-  // What was heard is to tell why it did not start.
-  if (!reader && options.observer) LiveSource(gathering.messages(), {}).go_live(options.observer);
+  Gathering gathering(transport, commands, options);
+  auto reader = gathering.wait_to_open();
+  if (!reader) gathering.show();
   return reader;
 }
 

@@ -18,25 +18,24 @@ namespace aims {
 using LiveTransforms = std::map<std::string, LiveMessage>;
 
 struct LiveRecordingOptions {
+  RecordingConfig config;
   Duration settle = 3 * kSecond;     ///< gathered before topics, units and extrinsics are decided
   double patience = 0.0;             ///< timeout without the needed topics [s]; 0: none
   Duration max_wait = kSecond / 20;  ///< of a cloud, once the estimator has caught up
   LiveSource::Observer observer;     ///< sees all messages of the gathered topics; none: nobody
   ClockWatch* clocks = nullptr;      ///< once it is broken, reading ends
   LiveTransforms* transforms = nullptr;  ///< heard before, used where they are not sent again
+  /// Error unless the setup suffices, naming what is missing.
+  std::function<Result<void>(const RecordingSetup& setup)> check_setup;
+  /// Called every few seconds with what is missing.
+  std::function<void(const std::string&)> waiting;
 };
 
-/// Error unless the setup suffices, naming what is missing.
-using SetupCheck = std::function<Result<void>(const RecordingSetup& setup)>;
-
 /// Gathers all topics of the network until topics, units and extrinsics can be decided as for a bag
-/// and `check_setup` passes; then, without an observer, only those that are used. Meanwhile
-/// `waiting` is called every few seconds with what is missing. Reading ends when the node is asked
-/// to end or to start anew. Error when the node is asked to end before, or after the timeout.
+/// and `check_setup` passes; then, without an observer, only those that are used. Reading ends when
+/// the node is asked to end or to start anew. Error when the node is asked to end before, or after
+/// the timeout.
 Result<RecordingReader> open_live_recording(Transport& transport, Commands& commands,
-                                            const RecordingConfig& config,
-                                            const LiveRecordingOptions& options,
-                                            const SetupCheck& check_setup,
-                                            const std::function<void(const std::string&)>& waiting);
+                                            const LiveRecordingOptions& options);
 
 }  // namespace aims

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -17,14 +16,13 @@
 #include "live/live_estimate.hpp"
 #include "live/live_recording.hpp"
 #include "live/odometry_content.hpp"
+#include "live/program.hpp"
 #include "live/recorder.hpp"
 
 namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kNoRecording = "the recording cannot be written";
 
 Result<void> check_topics(const LiveConfig& config, const RecordingSetup& setup) {
   if (!requirements_of(config.estimator, config.estimators).legs) return {};
@@ -59,7 +57,9 @@ Result<std::unique_ptr<Estimator>> make_live_estimator(const LiveConfig& config,
   if (!spec) return tl::unexpected(spec.error());
   const auto own = config_with(*spec, config.estimators);
   if (!own) return tl::unexpected(own.error());
-  return (*own)->create(setup.rig);
+  auto made = (*own)->create(setup.rig);
+  if (const auto& broken = made->result().failure) return tl::unexpected(*broken);
+  return made;
 }
 
 /// The estimates of a node, one after the other: each begins as if the program had just started.
@@ -102,22 +102,22 @@ class Session {
     const std::string name = label_of(options_.estimator);
     auto log = LiveLog::create(folder_of(part), name);
     if (!log) return tl::unexpected(log.error());
-    auto recorder = Recorder::create(record_of(part), transport_.cdr());
+    auto recorder = Recorder::create(record_of(part), transport_.format());
     if (!recorder) return tl::unexpected(recorder.error());
-    LiveRecordingOptions live{.settle = from_seconds(options_.settle),
-                              .patience = options_.patience,
-                              .max_wait = from_seconds(options_.max_wait),
-                              .observer = {},
-                              .clocks = &clocks,
-                              .transforms = &transforms_};
-    LiveEstimate* estimate = nullptr;
+    LiveRecordingOptions live{
+        .config = config_.recording,
+        .settle = from_seconds(options_.settle),
+        .patience = options_.patience,
+        .max_wait = from_seconds(options_.max_wait),
+        .observer = {},
+        .clocks = &clocks,
+        .transforms = &transforms_,
+        .check_setup = [&](const RecordingSetup& setup) { return check_topics(config_, setup); },
+        .waiting = [&](const std::string& missing) { tell_waiting(missing); }};
     if (!options_.record.empty()) {
-      live.observer = [&](const BagMessage& message) { record(message, *recorder, estimate); };
+      live.observer = [&](const BagMessage& message) { recorder->add(message); };
     }
-    auto reader = open_live_recording(
-        transport_, commands_, config_.recording, live,
-        [&](const RecordingSetup& setup) { return check_topics(config_, setup); },
-        [&](const std::string& missing) { tell_waiting(missing); });
+    auto reader = open_live_recording(transport_, commands_, live);
     if (!reader) {
       if (auto ok = recorder->close(); !ok) print_line("warning: " + ok.error().message);
       return tl::unexpected(reader.error());
@@ -131,29 +131,17 @@ class Session {
     print_line(
         fmt::format("{} publishes {}", options_.estimator, transport_.resolved("~odometry")));
     LiveEstimate running(transport_, publications_, *reader, **estimator, std::move(*log),
-                         {T_odom_start_, &clocks, warnings, part > 1,
+                         {T_odom_start_, &clocks, &*recorder, warnings, part > 1,
                           [&](const ReadingWarning& each) { return concerns(config_, each); }});
-    estimate = &running;
-    if (!recorder->state()) running.warn({kNoRecording, recorder->state().error().message});
     commands_.on_save_map([&] { running.save_map(); });
     commands_.on_silence([&](double seconds) { running.tell_silence(seconds); });
     const auto done = running.run();
-    estimate = nullptr;
     commands_.on_save_map({});
     commands_.on_silence({});
     const auto recorded = recorder->close();
     running.print_summary(options_.source_time);
     if (running.last()) last_ = *running.last();
     return done ? recorded : done;
-  }
-
-  /// A full disk is a warning at once; the estimate goes on.
-  static void record(const BagMessage& message, Recorder& recorder, LiveEstimate* estimate) {
-    const bool recorded = recorder.state().has_value();
-    recorder.add(message);
-    if (!recorded || recorder.state()) return;
-    const std::string& why = recorder.state().error().message;
-    if (estimate != nullptr) estimate->warn({kNoRecording, why});
   }
 
   void tell_waiting(const std::string& missing) {
@@ -186,11 +174,6 @@ class Session {
 };
 
 }  // namespace
-
-void print_line(const std::string& text) {
-  fmt::print("{}\n", text);
-  std::fflush(stdout);
-}
 
 Result<void> run_live(Transport& transport, const LiveOptions& options) {
   auto config = load_live_config(options);

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
-
 #include "core/error.hpp"
 #include "live/live_options.hpp"
 #include "live/transport.hpp"
 
 namespace aims {
-
-/// Prints a line at once: who starts the program may read from a pipe.
-void print_line(const std::string& text);
 
 /// Gathers topics, decides how to read them, then estimates and publishes until the node is asked
 /// to end; anew when clocks jump, or on request. Error for what cannot be read or written.

@@ -10,13 +10,6 @@
 
 namespace aims {
 
-Result<MessageDecoder> decoder_of(const LiveConnection& connection) {
-  std::string definition = connection.definition;
-  MessageFormat format = connection.cdr ? kRos2Format : kRos1Format;
-  if (connection.cdr) complete_definition(connection.type, definition, format);
-  return MessageDecoder::create(connection.type, definition, format);
-}
-
 LiveSource::LiveSource(std::shared_ptr<LiveMessages> gathered, Wait wait)
     : gathered_(std::move(gathered)), wait_(std::move(wait)) {
   for (const LiveMessage& message : *gathered_) announce(*message.connection);
@@ -31,7 +24,7 @@ void LiveSource::select(std::span<const std::string> topics) {
   selected_.emplace(topics.begin(), topics.end());
 }
 
-const BagConnection* LiveSource::find(const LiveConnection& connection) const {
+const BagConnection* LiveSource::find(const BagConnection& connection) const {
   const auto found = std::ranges::find_if(connections_, [&](const BagConnection& known) {
     return known.topic == connection.topic && known.type == connection.type &&
            known.md5 == connection.md5;
@@ -39,17 +32,10 @@ const BagConnection* LiveSource::find(const LiveConnection& connection) const {
   return found == connections_.end() ? nullptr : &*found;
 }
 
-void LiveSource::announce(const LiveConnection& connection) {
+void LiveSource::announce(const BagConnection& connection) {
   if (find(connection) == nullptr) {
-    BagConnection added{.id = static_cast<std::uint32_t>(connections_.size()),
-                        .topic = connection.topic,
-                        .type = connection.type,
-                        .md5 = connection.md5,
-                        .definition = connection.definition,
-                        .latching = connection.latching,
-                        .format = connection.cdr ? kRos2Format : kRos1Format};
-    if (connection.cdr) complete_definition(added.type, added.definition, added.format);
-    connections_.push_back(std::move(added));
+    connections_.push_back(connection);
+    connections_.back().id = static_cast<std::uint32_t>(connections_.size() - 1);
   }
   for (BagConnection& known : connections_) known.messages += &known == find(connection) ? 1 : 0;
 }
@@ -61,25 +47,16 @@ BagMessage LiveSource::as_recorded(const LiveMessage& message, const BagConnecti
 }
 
 /// Whether the clocks allow for reading on.
-bool LiveSource::goes_on(const LiveMessage& message, const BagConnection& connection) {
-  if (!live_ || clocks_ == nullptr || connection.latching) return true;
-  const auto [place, added] = decoders_.try_emplace(&connection);
-  if (added) {
-    auto decoder = decoder_of(*message.connection);
-    if (decoder) place->second = std::move(*decoder);
-  }
-  std::optional<Time> stamp;
-  if (place->second) {
-    if (const auto view = place->second->decode(message.data)) stamp = view->time("header.stamp");
-  }
-  if (stamp == 0) stamp.reset();
-  clocks_->add(connection.topic, stamp, message.arrival);
+bool LiveSource::goes_on(const BagMessage& recorded, Time arrival) {
+  if (!live_ || clocks_ == nullptr || recorded.connection->latching) return true;
+  clocks_->add(recorded.connection->topic, stamps_->of(recorded), arrival);
   return clocks_->broken().empty();
 }
 
 void LiveSource::go_live(Observer observer, ClockWatch* clocks) {
   live_ = true;
   clocks_ = clocks;
+  stamps_.emplace(connections_);
   observer_ = std::move(observer);
   if (observer_) show_start();
 }
@@ -126,8 +103,8 @@ Result<std::optional<BagMessage>> LiveSource::next() {
     const BagConnection* connection = find(*message->connection);
     if (connection == nullptr) continue;
     const bool selected = selects(connection->topic);
-    if (selected && !goes_on(*message, *connection)) return std::nullopt;
     const BagMessage recorded = as_recorded(*message, *connection);
+    if (selected && !goes_on(recorded, message->arrival)) return std::nullopt;
     if (observer_ && message == &current_) observer_(recorded);
     if (selected) return recorded;
   }

@@ -3,7 +3,6 @@
 
 #include <deque>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -12,17 +11,14 @@
 #include <vector>
 
 #include "live/clock_watch.hpp"
-#include "live/message.hpp"
+#include "live/inbox.hpp"
 #include "recordings/bag/message_source.hpp"
-#include "recordings/messages/message_decoder.hpp"
+#include "recordings/source/message_stamps.hpp"
 
 namespace aims {
 
 /// Queued messages, in order of arrival.
 using LiveMessages = std::deque<LiveMessage>;
-
-/// Error for a definition that cannot be parsed.
-Result<MessageDecoder> decoder_of(const LiveConnection& connection);
 
 /// The topics of a running robot as a message source. At first it contains the gathered messages,
 /// which can be read again; once live, it continues with new ones. Messages of topics or types that
@@ -49,15 +45,15 @@ class LiveSource final : public MessageSource {
 
   /// Makes `next` wait for new messages after the gathered ones instead of ending. `observer` sees
   /// all messages of the gathered topics, selected or not, and behind the gathered ones one on
-  /// `kDecidedTopic`. `clocks` judges the stamps of the
-  /// selected ones: once it is broken, `next` ends; it must outlive the source.
+  /// `kDecidedTopic`. `clocks` judges the stamps of the selected ones: once it is broken, `next`
+  /// ends; it must outlive the source.
   void go_live(Observer observer = {}, ClockWatch* clocks = nullptr);
 
  private:
-  const BagConnection* find(const LiveConnection& connection) const;
-  void announce(const LiveConnection& connection);
+  const BagConnection* find(const BagConnection& connection) const;
+  void announce(const BagConnection& connection);
   const LiveMessage* following();
-  bool goes_on(const LiveMessage& message, const BagConnection& connection);
+  bool goes_on(const BagMessage& recorded, Time arrival);
   BagMessage as_recorded(const LiveMessage& message, const BagConnection& connection);
   void show_start();
 
@@ -70,10 +66,10 @@ class LiveSource final : public MessageSource {
   Observer observer_;
   BagConnection decided_;  ///< of the message that says where the gathered ones end
   ClockWatch* clocks_ = nullptr;
-  std::map<const BagConnection*, std::optional<MessageDecoder>> decoders_;  ///< for the stamps
-  std::size_t position_ = 0;  ///< among the gathered messages
-  LiveMessage current_;       ///< the last message that was waited for
-  Time last_ = 0;             ///< record time of the last message read
+  std::optional<MessageStamps> stamps_;  ///< for the clocks
+  std::size_t position_ = 0;             ///< among the gathered messages
+  LiveMessage current_;                  ///< the last message that was waited for
+  Time last_ = 0;                        ///< record time of the last message read
 };
 
 }  // namespace aims

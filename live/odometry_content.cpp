@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "live/odometry_content.hpp"
 
-#include <cmath>
-
 namespace aims {
 namespace {
 
@@ -49,14 +47,7 @@ OdometryContent odometry_of(const MotionEstimate& motion) {
   return content;
 }
 
-Pose level(const Pose& pose) {
-  const Eigen::Matrix3d R = pose.R();
-  Pose turned;
-  turned.translation = pose.translation;
-  turned.rotation =
-      Eigen::Quaterniond(Eigen::AngleAxisd(std::atan2(R(1, 0), R(0, 0)), Eigen::Vector3d::UnitZ()));
-  return turned;
-}
+Pose level(const Pose& pose) { return {yaw_rotation(yaw_of(pose.rotation)), pose.translation}; }
 
 MotionEstimate placed_at(const Pose& T_frame_odom, const MotionEstimate& motion) {
   const Eigen::Matrix3d R = T_frame_odom.R();

@@ -1,34 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <fmt/format.h>
-
-#include <cstdio>
-#include <exception>
+#include <CLI/CLI.hpp>
+#include <functional>
 #include <string>
+#include <vector>
+
+#include "core/error.hpp"
 
 namespace aims {
 
-// Exit codes of the live programs.
-inline constexpr int kLiveOk = 0;
-inline constexpr int kLiveBadInput = 2;
-inline constexpr int kLiveInternal = 3;
+/// Prints a line at once: who starts the program may read from a pipe.
+void print_line(const std::string& text);
 
-/// Prints "PROGRAM: message" to standard error; the exit code of bad input.
-inline int report_bad_input(const char* program, const std::string& message) {
-  fmt::print(stderr, "{}: {}\n", program, message);
-  return kLiveBadInput;
-}
-
-/// What `main_of` returns; an exception is printed and becomes an exit code.
-template <class Main>
-int guarded_main(const char* program, const Main& main_of) {
-  try {
-    return main_of();
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}: internal error: {}\n", program, error.what());
-    return kLiveInternal;
-  }
-}
+/// Parses the arguments, without the program's name, then runs it. Its exit code: 0, also after
+/// help; 2 for bad arguments or an error, which is a line on standard error; 3 for an exception.
+int run_program(CLI::App& app, std::vector<std::string> arguments,
+                const std::function<Result<void>()>& run);
 
 }  // namespace aims

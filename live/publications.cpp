@@ -12,24 +12,15 @@ namespace aims {
 
 Publications::Publications(Transport& transport, OdometryFrames frames, std::string name)
     : transport_(transport),
-      serialization_(transport.cdr() ? Serialization::kCdr : Serialization::kRos1),
+      serialization_(transport.format().serialization),
       frames_(std::move(frames)),
       name_(std::move(name)),
-      odometry_(advertise("~odometry", odometry_type())),
-      fast_(advertise("~odometry_fast", odometry_type())),
-      cloud_(advertise("~cloud", point_cloud_type())),
-      map_(advertise("~map", point_cloud_type())),
-      diagnostics_(advertise("/diagnostics", diagnostics_type())) {
-  if (frames_.tf) tf_ = advertise("/tf", transforms_type());
-}
-
-std::size_t Publications::advertise(const char* topic, const MessageType& type) {
-  return transport_.advertise({.topic = topic,
-                               .type = type.name,
-                               .md5 = type.md5,
-                               .definition = type.definition,
-                               .latching = false,
-                               .cdr = transport_.cdr()});
+      odometry_(transport.advertise("~odometry", odometry_type(), false)),
+      fast_(transport.advertise("~odometry_fast", odometry_type(), false)),
+      cloud_(transport.advertise("~cloud", point_cloud_type(), false)),
+      map_(transport.advertise("~map", point_cloud_type(), false)),
+      diagnostics_(transport.advertise("/diagnostics", diagnostics_type(), false)) {
+  if (frames_.tf) tf_ = transport.advertise("/tf", transforms_type(), false);
 }
 
 MessageHeader Publications::header(Time stamp) {
@@ -37,7 +28,7 @@ MessageHeader Publications::header(Time stamp) {
 }
 
 void Publications::send(std::size_t publisher, const MessageBytes& message) {
-  transport_.publish(publisher, message.view().data(), message.view().size());
+  transport_.publish(publisher, message.view());
 }
 
 void Publications::pose(const StampedPose& pose, const std::optional<MotionEstimate>& motion) {

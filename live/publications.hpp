@@ -50,7 +50,6 @@ class Publications {
   void health(const HealthRow& row, std::vector<std::pair<std::string, std::string>> figures);
 
  private:
-  std::size_t advertise(const char* topic, const MessageType& type);
   MessageHeader header(Time stamp);
   void send(std::size_t publisher, const MessageBytes& message);
 

@@ -9,9 +9,10 @@
 
 namespace aims {
 
-Result<Recorder> Recorder::create(const std::filesystem::path& file, bool cdr) {
+Result<Recorder> Recorder::create(const std::filesystem::path& file, MessageFormat format) {
   Recorder recorder;
   if (file.empty()) return recorder;
+  const bool cdr = format.serialization == Serialization::kCdr;
   const RecordingFormat wanted = cdr ? RecordingFormat::kMcap : RecordingFormat::kBag;
   if (format_by_name(file) != wanted) {
     return failure(

@@ -15,9 +15,9 @@ namespace aims {
 /// `aims estimate` finds what the estimator got.
 class Recorder {
  public:
-  /// `file`: .mcap for messages of ROS 2 (`cdr`), .bag for ROS 1; empty: nothing is written. Error
-  /// when it exists, cannot be written or is of the other kind.
-  static Result<Recorder> create(const std::filesystem::path& file, bool cdr);
+  /// `file`: .mcap for messages of ROS 2, .bag for ROS 1; empty: nothing is written. Error when it
+  /// exists, cannot be written or is of the other kind.
+  static Result<Recorder> create(const std::filesystem::path& file, MessageFormat format);
 
   /// Errors are kept for `close`: a full disk must not end the estimate.
   void add(const BagMessage& message);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <variant>
 
-#include "live/message.hpp"
+#include "live/inbox.hpp"
 
 namespace aims {
 namespace {

@@ -2,27 +2,29 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <map>
+#include <mutex>
 #include <optional>
+#include <set>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "live/message.hpp"
+#include "live/inbox.hpp"
 
 namespace aims {
 
-/// A node of a network that receives and publishes messages of any type, as bytes. This header
-/// needs neither a network's library nor C++20, so that each stays in its own sources.
+/// A node of a network that receives and publishes messages of any type, as bytes. There is one in
+/// a process: it takes the signals that end a program.
 class Transport {
  public:
   virtual ~Transport() = default;
 
-  /// Whether its messages are CDR, as in ROS 2.
-  virtual bool cdr() const = 0;
+  /// Of all messages.
+  virtual MessageFormat format() const = 0;
 
   /// False once the node was asked to end: Ctrl-C, SIGTERM, SIGHUP, or by the network.
-  virtual bool running() const = 0;
+  virtual bool running() const;
 
   /// Types of the topics that other nodes publish, by topic.
   virtual std::map<std::string, std::string> topics() = 0;
@@ -35,28 +37,43 @@ class Transport {
   virtual void unsubscribe(const std::string& topic) = 0;
 
   /// The next message in order of arrival; nothing after `seconds`, or when the node ends.
-  virtual std::optional<LiveMessage> wait(double seconds) = 0;
+  virtual std::optional<LiveMessage> wait(double seconds);
 
   /// Messages dropped so far, since the node was too slow.
-  virtual std::size_t dropped() const = 0;
+  std::size_t dropped() const { return inbox_.dropped(); }
 
   /// Messages that the network lost so far, as far as it knows.
   virtual std::size_t lost() const { return 0; }
 
-  /// The longest time for which a cloud may wait from now on [ns].
-  virtual void limit_wait(std::int64_t longest) = 0;
+  /// Publishers of a topic, as far as it knows.
+  virtual std::size_t publishers(const std::string& /*topic*/) const { return 1; }
+
+  /// The longest time for which a cloud may wait from now on.
+  void limit_wait(Duration longest) { inbox_.limit_wait(longest); }
 
   /// What is wrong with the network, one sentence each, since the last call.
-  virtual std::vector<std::string> take_problems() { return {}; }
+  std::vector<std::string> take_problems();
 
-  /// Announces a topic; returns the number to publish with.
-  virtual std::size_t advertise(const LiveConnection& connection) = 0;
+  /// Announces a topic; returns the number to publish with. Late subscribers receive the last
+  /// message of a latching one.
+  virtual std::size_t advertise(const std::string& topic, const MessageType& type,
+                                bool latching) = 0;
   /// Whether somebody listens to it.
   virtual bool heard(std::size_t publisher) const = 0;
-  virtual void publish(std::size_t publisher, const std::byte* data, std::size_t size) = 0;
+  virtual void publish(std::size_t publisher, std::span<const std::byte> data) = 0;
 
  protected:
-  Transport() = default;
+  Transport();
+
+  /// Keeps a problem for `take_problems`; each once.
+  void tell(std::string problem);
+
+  Inbox inbox_;
+
+ private:
+  std::mutex mutex_;            ///< of what follows
+  std::set<std::string> told_;  ///< problems
+  std::vector<std::string> problems_;
 };
 
 }  // namespace aims

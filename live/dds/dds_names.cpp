@@ -12,8 +12,7 @@ constexpr std::string_view kMiddle = "::msg::dds_::";
 }  // namespace
 
 std::string dds_topic(const std::string& topic) {
-  const bool absolute = topic.starts_with("/");
-  return std::string(kTopicPrefix) + (absolute ? topic.substr(1) : topic);
+  return std::string(kTopicPrefix) + topic.substr(topic.starts_with("/") ? 1 : 0);
 }
 
 std::optional<std::string> ros_topic(const std::string& dds) {
@@ -29,9 +28,10 @@ std::string dds_type(const std::string& type) {
 
 std::optional<std::string> ros_type(const std::string& dds) {
   const std::size_t middle = dds.find(kMiddle);
-  if (middle == std::string::npos || middle == 0 || !dds.ends_with("_")) return std::nullopt;
   const std::size_t name = middle + kMiddle.size();
-  if (dds.size() < name + 2) return std::nullopt;
+  if (middle == std::string::npos || middle == 0 || dds.size() < name + 2 || !dds.ends_with("_")) {
+    return std::nullopt;
+  }
   return dds.substr(0, middle) + "/" + dds.substr(name, dds.size() - name - 1);
 }
 

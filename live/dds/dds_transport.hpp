@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
+#include "live/dds/discovery.hpp"
 #include "live/transport.hpp"
 
 namespace aims {
@@ -30,33 +33,55 @@ class DdsTransport final : public Transport {
   static Result<std::unique_ptr<DdsTransport>> connect(const DdsOptions& options);
   ~DdsTransport() override;
 
-  bool cdr() const override { return true; }
-  bool running() const override;
+  MessageFormat format() const override { return kRos2Format; }
   std::map<std::string, std::string> topics() override;
   std::string resolved(const std::string& topic) const override;
   void subscribe(const std::string& topic, const std::string& type) override;
   void unsubscribe(const std::string& topic) override;
   std::optional<LiveMessage> wait(double seconds) override;
-  std::size_t dropped() const override;
-  void limit_wait(std::int64_t longest) override;
-  std::size_t lost() const override;
-  std::vector<std::string> take_problems() override;
-  std::size_t advertise(const LiveConnection& connection) override;
+  std::size_t lost() const override { return lost_; }
+  std::size_t publishers(const std::string& topic) const override {
+    return discovery_.publishers(topic);
+  }
+  std::size_t advertise(const std::string& topic, const MessageType& type, bool latching) override;
   bool heard(std::size_t publisher) const override { return subscribers(publisher) > 0; }
-  void publish(std::size_t publisher, const std::byte* data, std::size_t size) override;
+  void publish(std::size_t publisher, std::span<const std::byte> data) override;
 
   /// As `publish`, with that time of sending, >= 0. False when the subscribers are too slow.
-  bool publish_at(std::size_t publisher, std::int64_t time, const std::byte* data,
-                  std::size_t size);
+  bool publish_at(std::size_t publisher, Time time, std::span<const std::byte> data);
   /// Subscribers of a topic that this node publishes.
   std::size_t subscribers(std::size_t publisher) const;
   /// Waits until all subscribers have all messages, or `seconds`; topics of which one has not.
   std::size_t wait_for_subscribers(double seconds) const;
 
  private:
-  struct Impl;
-  explicit DdsTransport(std::unique_ptr<Impl> impl);
-  std::unique_ptr<Impl> impl_;
+  using Entity = std::int32_t;  ///< of DDS
+  /// One topic of which this node receives messages.
+  struct Subscription {
+    DdsTransport* owner = nullptr;
+    std::shared_ptr<const BagConnection> connection;
+    bool reliable = false;
+    Entity topic = 0;
+    Entity reader = 0;
+    std::atomic<bool> refused{false};  ///< a publisher offers less than was asked for
+  };
+
+  explicit DdsTransport(DdsOptions options) : options_(std::move(options)) {}
+  void open(Subscription& subscription);
+  static void close(Subscription& subscription);
+  void take_samples(const Subscription& subscription, Entity reader);
+  void refuse(Subscription& subscription, std::uint32_t policy);
+  void reopen_refused();
+  void watch_publishers();
+  Entity make_topic(const std::string& topic, const std::string& type) const;
+
+  DdsOptions options_;
+  Entity participant_ = 0;
+  Discovery discovery_;
+  std::map<std::string, std::unique_ptr<Subscription>> subscriptions_;
+  std::vector<Entity> writers_;
+  std::chrono::steady_clock::time_point watched_;
+  std::atomic<std::size_t> lost_ = 0;
 };
 
 }  // namespace aims

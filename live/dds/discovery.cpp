@@ -2,11 +2,8 @@
 #include "live/dds/discovery.hpp"
 
 #include <dds/dds.h>
-#include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cstdlib>
 #include <cstring>
 
 #include "live/dds/dds_names.hpp"
@@ -14,8 +11,7 @@
 namespace aims {
 namespace {
 
-constexpr std::uint32_t kMaxDomain = 232;  ///< beyond it ports exceed 65535
-constexpr std::size_t kBatch = 16;         ///< samples per call of DDS
+constexpr std::size_t kBatch = 16;  ///< samples per call of DDS
 
 OfferedQuality quality_of(const dds_qos_t* qos) {
   auto reliability = DDS_RELIABILITY_BEST_EFFORT;
@@ -27,19 +23,6 @@ OfferedQuality quality_of(const dds_qos_t* qos) {
 }
 
 }  // namespace
-
-Result<std::uint32_t> default_domain() {
-  const char* text = std::getenv("ROS_DOMAIN_ID");
-  if (text == nullptr || *text == '\0') return 0U;
-  std::uint32_t domain = 0;
-  const char* end = text + std::strlen(text);
-  const auto [stop, error] = std::from_chars(text, end, domain);
-  if (error != std::errc() || stop != end || domain > kMaxDomain) {
-    return failure(
-        fmt::format("ROS_DOMAIN_ID is '{}': expected a number from 0 to {}", text, kMaxDomain));
-  }
-  return domain;
-}
 
 Result<Discovery> Discovery::create(std::int32_t participant) {
   Discovery discovery;

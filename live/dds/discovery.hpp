@@ -11,9 +11,6 @@
 
 namespace aims {
 
-/// $ROS_DOMAIN_ID, or 0. Error for one that is no number below 233.
-Result<std::uint32_t> default_domain();
-
 /// What publishers promise to their subscribers.
 struct OfferedQuality {
   bool reliable = true;

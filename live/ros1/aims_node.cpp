@@ -1,34 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <string>
-
-#include "live/live_options.hpp"
 #include "live/live_session.hpp"
 #include "live/program.hpp"
 #include "live/ros1/ros1_transport.hpp"
 
-namespace aims {
-namespace {
-
-constexpr const char* kProgram = "aims_node";
-
-int main_of(int argc, char** argv) {
-  const auto command =
-      parse_live_arguments(Ros1Transport::own_arguments(argc, argv), LiveNetwork::kRos1);
-  if (!command) return report_bad_input(kProgram, command.error().message);
-  if (!command->help.empty()) {
-    print_line(command->help);
-    return kLiveOk;
-  }
-  std::string problem;
-  const auto transport = Ros1Transport::connect(argc, argv, kProgram, problem);
-  if (!transport) return report_bad_input(kProgram, problem);
-  const auto done = run_live(*transport, command->options);
-  return done ? kLiveOk : report_bad_input(kProgram, done.error().message);
-}
-
-}  // namespace
-}  // namespace aims
-
 int main(int argc, char** argv) {
-  return aims::guarded_main(aims::kProgram, [&] { return aims::main_of(argc, argv); });
+  using namespace aims;
+  CLI::App app("Estimates a robot's motion live from ROS 1 topics and publishes it on ~odometry.",
+               "aims_node");
+  app.footer(
+      "Topics and the node are renamed as ROS does (/a:=/b, __name:=c).\n"
+      "Exit codes: 0 ok, 2 bad usage, configuration or topics.");
+  LiveOptions options;
+  add_live_options(app, options);
+  return run_program(app, Ros1Transport::own_arguments(argc, argv), [&]() -> Result<void> {
+    const auto transport = Ros1Transport::connect(argc, argv, app.get_name());
+    if (!transport) return tl::unexpected(transport.error());
+    return run_live(**transport, options);
+  });
 }

@@ -3,7 +3,6 @@
 
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
-#include <signal.h>
 #include <topic_tools/shape_shifter.h>
 
 #include <algorithm>
@@ -11,19 +10,15 @@
 #include <tuple>
 #include <utility>
 
-#include "live/inbox.hpp"
-
 namespace aims {
 namespace {
 
 using topic_tools::ShapeShifter;
 
-/// Length of roscpp's queue: five seconds at 200 Hz.
-constexpr std::uint32_t kQueueSize = 1000;
-/// Period in which a waiting node checks whether it was asked to end [s].
-constexpr double kMaxWait = 0.1;
+constexpr std::uint32_t kQueueSize = 1000;  ///< of roscpp: five seconds at 200 Hz
+constexpr std::uint32_t kSendQueue = 100;
 
-/// Output of ShapeShifter and roscpp's serialization.
+/// Output of ShapeShifter.
 struct ByteStream {
   std::vector<std::byte>& bytes;
   std::uint8_t* advance(std::uint32_t size) {
@@ -31,8 +26,6 @@ struct ByteStream {
     return reinterpret_cast<std::uint8_t*>(bytes.data());
   }
 };
-
-void request_end(int) { ros::requestShutdown(); }
 
 }  // namespace
 
@@ -43,32 +36,35 @@ struct Ros1Transport::Impl {
   ros::NodeHandle node;
   ros::CallbackQueue queue;
   std::map<std::string, ros::Subscriber> subscribers;
-  std::map<Key, std::shared_ptr<const LiveConnection>> connections;
-  std::vector<std::pair<ros::Publisher, LiveConnection>> publishers;
-  Inbox inbox;
+  std::map<Key, std::shared_ptr<const BagConnection>> connections;
+  std::vector<std::pair<ros::Publisher, ShapeShifter>> publishers;
+  ros::AsyncSpinner spinner{1, &queue};  ///< its thread takes messages over
 
-  void take(const std::string& topic, const Event& event) {
+  LiveMessage taken(const std::string& topic, const Event& event) {
     const ShapeShifter& message = *event.getConstMessage();
     const auto& header = event.getConnectionHeaderPtr();
     const auto latching = header->find("latching");
     const bool latched = latching != header->end() && latching->second == "1";
     auto& connection = connections[{topic, message.getMD5Sum(), latched}];
     if (!connection) {
-      connection = std::make_shared<LiveConnection>(
-          LiveConnection{topic, message.getDataType(), message.getMD5Sum(),
-                         message.getMessageDefinition(), latched, false});
+      BagConnection made;
+      made.topic = topic;
+      made.type = message.getDataType();
+      made.md5 = message.getMD5Sum();
+      made.definition = message.getMessageDefinition();
+      made.latching = latched;
+      connection = std::make_shared<BagConnection>(std::move(made));
     }
-    LiveMessage taken;
-    taken.connection = connection;
-    taken.arrival = static_cast<std::int64_t>(event.getReceiptTime().toNSec());
+    LiveMessage taken{connection, static_cast<Time>(event.getReceiptTime().toNSec()), {}};
     ByteStream stream{taken.data};
     message.write(stream);
-    inbox.push(std::move(taken));
+    return taken;
   }
 };
 
 Ros1Transport::Ros1Transport(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-Ros1Transport::~Ros1Transport() = default;
+
+Ros1Transport::~Ros1Transport() { impl_->spinner.stop(); }
 
 std::vector<std::string> Ros1Transport::own_arguments(int argc, char** argv) {
   std::vector<std::string> arguments;
@@ -81,26 +77,23 @@ std::vector<std::string> Ros1Transport::own_arguments(int argc, char** argv) {
   return arguments;
 }
 
-std::unique_ptr<Ros1Transport> Ros1Transport::connect(int argc, char** argv,
-                                                      const std::string& name, std::string& error) {
+Result<std::unique_ptr<Ros1Transport>> Ros1Transport::connect(int argc, char** argv,
+                                                              const std::string& name) {
   try {
-    ros::init(argc, argv, name, ros::init_options::NoRosout);
+    ros::init(argc, argv, name, ros::init_options::NoRosout | ros::init_options::NoSigintHandler);
   } catch (const std::exception& exception) {
-    error = exception.what();
-    return nullptr;
+    return failure(exception.what());
   }
   if (!ros::master::check()) {
-    error = "no ROS master at " + ros::master::getURI() + "; start one, or set ROS_MASTER_URI";
-    return nullptr;
+    return failure("no ROS master at " + ros::master::getURI() +
+                   "; start one, or set ROS_MASTER_URI");
   }
   auto impl = std::make_unique<Impl>();
-  signal(SIGTERM, request_end);
-  // A lost ssh connection; under nohup it stays ignored.
-  if (signal(SIGHUP, request_end) == SIG_IGN) signal(SIGHUP, SIG_IGN);
+  impl->spinner.start();
   return std::unique_ptr<Ros1Transport>(new Ros1Transport(std::move(impl)));
 }
 
-bool Ros1Transport::running() const { return ros::ok(); }
+bool Ros1Transport::running() const { return Transport::running() && ros::ok(); }
 
 std::map<std::string, std::string> Ros1Transport::topics() {
   ros::master::V_TopicInfo found;
@@ -108,7 +101,7 @@ std::map<std::string, std::string> Ros1Transport::topics() {
   if (!ros::master::getTopics(found)) return types;
   const std::string own = resolved("~");
   for (const ros::master::TopicInfo& topic : found) {
-    if (topic.name.rfind(own, 0) != 0) types[topic.name] = topic.datatype;
+    if (!topic.name.starts_with(own)) types[topic.name] = topic.datatype;
   }
   return types;
 }
@@ -119,11 +112,11 @@ std::string Ros1Transport::resolved(const std::string& topic) const {
 
 void Ros1Transport::subscribe(const std::string& topic, const std::string& /*type*/) {
   const std::string name = resolved(topic);
-  if (impl_->subscribers.count(name) > 0) return;
+  if (impl_->subscribers.contains(name)) return;
   ros::SubscribeOptions options;
   options.initByFullCallbackType<const Impl::Event&>(
       name, kQueueSize,
-      [impl = impl_.get(), name](const Impl::Event& event) { impl->take(name, event); });
+      [this, name](const Impl::Event& event) { inbox_.push(impl_->taken(name, event)); });
   options.callback_queue = &impl_->queue;
   options.transport_hints = ros::TransportHints().tcpNoDelay();
   impl_->subscribers[name] = impl_->node.subscribe(options);
@@ -133,26 +126,13 @@ void Ros1Transport::unsubscribe(const std::string& topic) {
   impl_->subscribers.erase(resolved(topic));
 }
 
-std::optional<LiveMessage> Ros1Transport::wait(double seconds) {
-  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
-  impl_->queue.callAvailable();
-  while (impl_->inbox.empty()) {
-    const double left = (end - ros::WallTime::now()).toSec();
-    if (left <= 0.0 || !ros::ok()) return std::nullopt;
-    impl_->queue.callAvailable(ros::WallDuration(std::min(left, kMaxWait)));
-  }
-  return impl_->inbox.pop();
-}
-
-std::size_t Ros1Transport::dropped() const { return impl_->inbox.dropped(); }
-
-void Ros1Transport::limit_wait(std::int64_t longest) { impl_->inbox.limit_wait(longest); }
-
-std::size_t Ros1Transport::advertise(const LiveConnection& connection) {
-  ros::AdvertiseOptions options(resolved(connection.topic), 100, connection.md5, connection.type,
-                                connection.definition);
-  options.latch = connection.latching;
-  impl_->publishers.emplace_back(impl_->node.advertise(options), connection);
+std::size_t Ros1Transport::advertise(const std::string& topic, const MessageType& type,
+                                     bool latching) {
+  ros::AdvertiseOptions options(resolved(topic), kSendQueue, type.md5, type.name, type.definition);
+  options.latch = latching;
+  ShapeShifter message;
+  message.morph(type.md5, type.name, type.definition, latching ? "1" : "0");
+  impl_->publishers.emplace_back(impl_->node.advertise(options), message);
   return impl_->publishers.size() - 1;
 }
 
@@ -160,14 +140,11 @@ bool Ros1Transport::heard(std::size_t publisher) const {
   return impl_->publishers.at(publisher).first.getNumSubscribers() > 0;
 }
 
-void Ros1Transport::publish(std::size_t publisher, const std::byte* data, std::size_t size) {
-  const auto& [target, connection] = impl_->publishers.at(publisher);
-  ShapeShifter message;
-  message.morph(connection.md5, connection.type, connection.definition,
-                connection.latching ? "1" : "0");
+void Ros1Transport::publish(std::size_t publisher, std::span<const std::byte> data) {
+  auto& [target, message] = impl_->publishers.at(publisher);
   // Only read: roscpp has one stream type for both directions.
-  auto* bytes = const_cast<std::uint8_t*>(reinterpret_cast<const std::uint8_t*>(data));
-  ros::serialization::IStream stream(bytes, static_cast<std::uint32_t>(size));
+  auto* bytes = const_cast<std::uint8_t*>(reinterpret_cast<const std::uint8_t*>(data.data()));
+  ros::serialization::IStream stream(bytes, static_cast<std::uint32_t>(data.size()));
   message.read(stream);
   target.publish(message);
 }

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "recordings/clouds/point_table.hpp"
-#include "recordings/messages/message_types.hpp"
 #include "recordings/messages/message_values.hpp"
 
 namespace aims {
@@ -20,24 +19,13 @@ constexpr std::size_t kScanPoints = 3000;  ///< shown
 
 }  // namespace
 
-const MessageDecoder* WatchState::decoder_of(const LiveConnection& connection) {
-  const auto [place, added] = decoders_.try_emplace(connection.type);
-  if (added) {
-    std::string definition;
-    MessageFormat format = kRos2Format;
-    complete_definition(connection.type, definition, format);
-    if (auto decoder = MessageDecoder::create(connection.type, definition, format)) {
-      place->second = std::move(*decoder);
-    }
-  }
-  return place->second ? &*place->second : nullptr;
-}
-
 void WatchState::take(const LiveMessage& message) {
-  const std::string& type = message.connection->type;
-  const MessageDecoder* decoder = decoder_of(*message.connection);
-  if (decoder == nullptr) return;
-  const auto view = decoder->decode(message.data);
+  const BagConnection& from = *message.connection;
+  const std::string& type = from.type;
+  const auto [place, added] = decoders_.try_emplace(type);
+  if (added) place->second = MessageDecoder::create(type, from.definition, from.format);
+  if (!place->second) return;
+  const auto view = place->second->decode(message.data);
   const std::lock_guard lock(mutex_);
   bool taken = view.has_value();
   if (taken && type == "nav_msgs/Odometry") taken = take_odometry(*view, message.arrival);

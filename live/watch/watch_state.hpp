@@ -12,7 +12,7 @@
 
 #include "core/lie.hpp"
 #include "core/time.hpp"
-#include "live/message.hpp"
+#include "live/inbox.hpp"
 #include "recordings/messages/message_decoder.hpp"
 
 namespace aims {
@@ -31,13 +31,12 @@ class WatchState {
   std::string json(std::uint64_t epoch, std::size_t from) const;
 
  private:
-  const MessageDecoder* decoder_of(const LiveConnection& connection);
   bool take_odometry(const MessageView& view, std::int64_t arrival);
   bool take_cloud(const MessageView& view);
   bool take_diagnostics(const MessageView& view);
 
   std::string node_;
-  std::map<std::string, std::optional<MessageDecoder>> decoders_;  ///< by type
+  std::map<std::string, Result<MessageDecoder>> decoders_;  ///< by type
 
   mutable std::mutex mutex_;  ///< of what follows
   std::optional<Pose> pose_;

@@ -145,6 +145,7 @@ const std::vector<Confinement> kConfined = {
     {"CLI/", {"cli", "lab", "live", "tests/independent"}, true},
     {"ros/ros.h", {"live"}, false},
     {"dds/", {"live"}, false},
+    {"httplib.h", {"live"}, false},
     {"pybind11/", {"python"}, true},
 };
 

@@ -5,21 +5,25 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace aims {
 namespace {
 
-constexpr std::int64_t kSecondNs = 1'000'000'000;
-
 LiveMessage message(double arrival_s, std::size_t size) {
-  return {nullptr, static_cast<std::int64_t>(arrival_s * kSecondNs), std::vector<std::byte>(size)};
+  return {nullptr, from_seconds(arrival_s), std::vector<std::byte>(size)};
+}
+
+/// The next message that waits.
+std::optional<LiveMessage> next_of(Inbox& inbox) {
+  return inbox.wait(0.0, [] { return true; });
 }
 
 /// Arrival times [s] of what is left.
 std::vector<double> arrivals(Inbox& inbox) {
   std::vector<double> times;
-  while (auto next = inbox.pop()) times.push_back(static_cast<double>(next->arrival) / kSecondNs);
+  while (auto next = next_of(inbox)) times.push_back(to_seconds(next->arrival));
   return times;
 }
 
@@ -28,14 +32,14 @@ TEST(Inbox, KeepsTheOrderOfArrival) {
   for (const double time : {1.0, 1.5, 1.5, 2.0}) inbox.push(message(time, 10));
   EXPECT_EQ(arrivals(inbox), (std::vector{1.0, 1.5, 1.5, 2.0}));
   EXPECT_EQ(inbox.dropped(), 0U);
-  EXPECT_FALSE(inbox.pop());
+  EXPECT_FALSE(next_of(inbox));
 }
 
 TEST(Inbox, DropsACloudThatHasWaitedTwoSecondsForANewerOneOfItsTopic) {
-  const auto other = std::make_shared<const LiveConnection>();
+  const auto other = std::make_shared<const BagConnection>();
   Inbox inbox;
   inbox.push(message(1.0, 500'000));
-  inbox.push({other, kSecondNs, std::vector<std::byte>(500'000)});
+  inbox.push({other, kSecond, std::vector<std::byte>(500'000)});
   inbox.push(message(1.1, 100));
   inbox.push(message(1.5, 500'000));
   inbox.push(message(9.0, 100));
@@ -61,9 +65,9 @@ struct BusyNode {
   void run(double end, double seconds_per_cloud) {
     for (double now = 0.0; now < end;) {
       receive_until(now);
-      const auto next = inbox.pop();
+      const auto next = next_of(inbox);
       const bool cloud = next && next->data.size() > Inbox::kLargeSize;
-      if (cloud) ages.push_back(now - static_cast<double>(next->arrival) / kSecondNs);
+      if (cloud) ages.push_back(now - to_seconds(next->arrival));
       if (next && !cloud) ++imu;
       now += cloud ? seconds_per_cloud : 0.0001;
     }
@@ -72,7 +76,7 @@ struct BusyNode {
 
 TEST(Inbox, FourTimesTooSlowANodeStartsNoCloudLateAndDropsThreeOfFour) {
   BusyNode node;
-  node.inbox.limit_wait(kSecondNs / 10);
+  node.inbox.limit_wait(kSecond / 10);
   node.run(60.0, 0.4);
   EXPECT_LE(std::ranges::max(node.ages), 0.1 + 0.005 + 0.01);
   EXPECT_NEAR(static_cast<double>(node.ages.size()), 60.0 / 0.4, 5.0);
@@ -82,7 +86,7 @@ TEST(Inbox, FourTimesTooSlowANodeStartsNoCloudLateAndDropsThreeOfFour) {
 
 TEST(Inbox, DropsNothingOfANodeThatIsSlowForAMoment) {
   BusyNode node;
-  node.inbox.limit_wait(kSecondNs / 10);
+  node.inbox.limit_wait(kSecond / 10);
   node.run(60.0, 0.09);
   EXPECT_EQ(node.inbox.dropped(), 0U);
   EXPECT_NEAR(static_cast<double>(node.ages.size()), 600.0, 2.0);

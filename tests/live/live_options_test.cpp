@@ -3,22 +3,42 @@
 
 #include <gtest/gtest.h>
 
+#include "live/program.hpp"
+
 namespace aims {
 namespace {
 
-TEST(LiveOptions, HelpIsReturned) {
-  const auto command = parse_live_arguments({"--help"}, LiveNetwork::kDds);
-  ASSERT_TRUE(command);
-  EXPECT_NE(command->help.find("--patience"), std::string::npos);
+/// Exit code and what was printed, of arguments that are no error to a program that fails.
+std::pair<int, std::string> run(const std::vector<std::string>& arguments) {
+  CLI::App app("", "program");
+  LiveOptions options;
+  add_live_options(app, options);
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const int exit_code =
+      run_program(app, arguments, []() -> Result<void> { return failure("why"); });
+  return {exit_code,
+          testing::internal::GetCapturedStdout() + testing::internal::GetCapturedStderr()};
+}
+
+TEST(LiveOptions, HelpIsPrinted) {
+  const auto [exit_code, said] = run({"--help"});
+  EXPECT_EQ(exit_code, 0);
+  EXPECT_NE(said.find("--patience"), std::string::npos);
 }
 
 TEST(LiveOptions, BadArgumentsAreOneLine) {
   for (const std::vector<std::string>& arguments :
        {std::vector<std::string>{"--fast"}, {"--settle", "0"}, {"stray"}}) {
-    const auto command = parse_live_arguments(arguments, LiveNetwork::kDds);
-    ASSERT_FALSE(command) << arguments.front();
-    EXPECT_EQ(command.error().message.find('\n'), std::string::npos) << command.error().message;
+    const auto [exit_code, said] = run(arguments);
+    EXPECT_EQ(exit_code, 2);
+    EXPECT_TRUE(said.ends_with("; see --help\n")) << said;
+    EXPECT_EQ(said.find('\n'), said.size() - 1) << said;
   }
+}
+
+TEST(LiveOptions, AnErrorOfTheProgramIsALineAndAnExitCode) {
+  EXPECT_EQ(run({"--settle", "1"}), std::pair(2, std::string("program: why\n")));
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ namespace {
 
 constexpr Duration kSettle = kSecond;
 
-/// A walk whose LiDAR sets its clock right after a second: before, clouds come 25 ms after their stamp,
-/// as clouds do that are stamped at their end.
+/// A walk whose LiDAR sets its clock right after a second: before, clouds come 25 ms after their
+/// stamp, as clouds do that are stamped at their end.
 void record_walk(const std::filesystem::path& file) {
   test::KinematicWorld world(test::short_walk());
   auto writer = RecordingWriter::create(file, world.rig(), "seed: 1");
@@ -66,11 +66,9 @@ LiveMessages messages_of(const std::filesystem::path& file) {
   LiveMessages messages;
   auto source = open_recording(file);
   EXPECT_TRUE(source) << source.error().message;
-  std::vector<std::shared_ptr<const LiveConnection>> connections;
+  std::vector<std::shared_ptr<const BagConnection>> connections;
   for (const BagConnection& each : (*source)->connections()) {
-    connections.push_back(std::make_shared<LiveConnection>(
-        LiveConnection{each.topic, each.type, each.md5, each.definition, each.latching,
-                       each.format.serialization == Serialization::kCdr}));
+    connections.push_back(std::make_shared<BagConnection>(each));
   }
   for (auto next = (*source)->next(); next && *next; next = (*source)->next()) {
     messages.push_back({connections[(*next)->connection->id],
@@ -113,7 +111,7 @@ class LiveReplay : public testing::TestWithParam<const char*> {
     LiveSource& live = *source;
     auto reader = RecordingReader::open(std::move(source), RecordingConfig());
     EXPECT_TRUE(reader) << reader.error().message;
-    auto recorder = Recorder::create(record_, cdr);
+    auto recorder = Recorder::create(record_, cdr ? kRos2Format : kRos1Format);
     EXPECT_TRUE(recorder);
     live.go_live([&](const BagMessage& message) { recorder->add(message); });
     auto deliveries = test::read_all(*reader);

@@ -13,14 +13,14 @@
 namespace aims {
 namespace {
 
-std::shared_ptr<const LiveConnection> connection(const std::string& topic,
-                                                 const std::string& md5 = "m") {
-  return std::make_shared<LiveConnection>(
-      LiveConnection{topic, "a/B", md5, "uint8 x", false, false});
+std::shared_ptr<const BagConnection> connection(const std::string& topic,
+                                                const std::string& md5 = "m") {
+  return std::make_shared<BagConnection>(
+      BagConnection{.topic = topic, .type = "a/B", .md5 = md5, .definition = "uint8 x"});
 }
 
 /// A message on `topic` whose one byte is `value`.
-LiveMessage message(const std::shared_ptr<const LiveConnection>& on, Time arrival, int value) {
+LiveMessage message(const std::shared_ptr<const BagConnection>& on, Time arrival, int value) {
   return {on, arrival, {static_cast<std::byte>(value)}};
 }
 
@@ -48,8 +48,8 @@ std::vector<int> values_of(LiveSource& source) {
 
 class LiveSourceTest : public testing::Test {
  protected:
-  std::shared_ptr<const LiveConnection> a_ = connection("/a");
-  std::shared_ptr<const LiveConnection> b_ = connection("/b");
+  std::shared_ptr<const BagConnection> a_ = connection("/a");
+  std::shared_ptr<const BagConnection> b_ = connection("/b");
   std::shared_ptr<LiveMessages> gathered_ = std::make_shared<LiveMessages>(
       LiveMessages{message(a_, 10, 1), message(b_, 20, 2), message(a_, 30, 3)});
   Network network_{{message(b_, 40, 4), message(a_, 50, 5)}};

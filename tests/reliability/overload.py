@@ -36,10 +36,10 @@ def main():
     _, node_program, bag = (os.path.abspath(each) for each in sys.argv[1:4])
     loops = int(sys.argv[4]) if len(sys.argv) > 4 else 4
     with Network(os.path.abspath("log")) as network:
-        network.ask("setParam", "/aims_node/set/recording/topics/lidar", "/lidar/points")
         arrivals = latencies(network)
         with open("node.log", "w", encoding="utf-8") as log:
-            node = network.start([node_program, "--settle", "2"], stdout=log, stderr=log)
+            node = network.start([node_program, "--settle", "2", "--set", "recording.topics.lidar=/lidar/points"],
+                                 stdout=log, stderr=log)
             busy = [subprocess.Popen([sys.executable, "-c", "while True: pass"])
                     for _ in range(loops * os.cpu_count())]
             play = network.start(["/usr/lib/rosbag/play", "--quiet", "--delay=2", bag],

@@ -10,7 +10,6 @@
 #include <random>
 
 #include "live/dds/dds_names.hpp"
-#include "live/dds/discovery.hpp"
 #include "live/dds/raw_type.hpp"
 
 namespace aims {
@@ -69,33 +68,32 @@ class DdsTransportTest : public testing::Test {
 
 TEST_F(DdsTransportTest, BytesArriveAsTheyWereSent) {
   const std::size_t cloud =
-      sender_->advertise({"/lidar/points", "sensor_msgs/PointCloud2", {}, {}, false, true});
+      sender_->advertise("/lidar/points", {"sensor_msgs/PointCloud2", {}, {}}, false);
   subscribe("/lidar/points", "sensor_msgs/PointCloud2");
   ASSERT_TRUE(eventually([&] { return sender_->subscribers(cloud) == 1; }));
   // From one packet to hundreds of fragments, of any length modulo four: RTPS pads.
   unsigned seed = 1;
   for (const std::size_t size : {4U, 5U, 1001U, 65537U, 633'602U, 2'883'587U}) {
     const auto sent = payload(size, seed++);
-    ASSERT_TRUE(sender_->publish_at(cloud, 123'456'789'012'345'678, sent.data(), sent.size()));
+    ASSERT_TRUE(sender_->publish_at(cloud, 123'456'789'012'345'678, sent));
     const auto message = received();
     ASSERT_TRUE(message) << size;
     EXPECT_EQ(message->connection->topic, "/lidar/points");
-    EXPECT_TRUE(message->connection->cdr);
+    EXPECT_EQ(message->connection->format, kRos2Format);
     EXPECT_EQ(message->data, sent) << size;
   }
 }
 
 TEST_F(DdsTransportTest, ArrivalIsTheTimeOfSendingToTheNanosecondWhereAskedFor) {
   receiver_ = connect(true);
-  const std::size_t topic =
-      sender_->advertise({"/imu/data", "sensor_msgs/Imu", {}, {}, false, true});
+  const std::size_t topic = sender_->advertise("/imu/data", {"sensor_msgs/Imu", {}, {}}, false);
   subscribe("/imu/data", "sensor_msgs/Imu");
   ASSERT_TRUE(eventually([&] { return sender_->subscribers(topic) == 1; }));
   const auto sent = payload(100, 7);
   std::mt19937_64 random(7);
   for (int i = 0; i < 1000; ++i) {
     const auto time = static_cast<std::int64_t>(random() % 4'000'000'000'000'000'000ULL) + 1;
-    ASSERT_TRUE(sender_->publish_at(topic, time, sent.data(), sent.size()));
+    ASSERT_TRUE(sender_->publish_at(topic, time, sent));
     const auto message = received();
     ASSERT_TRUE(message);
     EXPECT_EQ(message->arrival, time);
@@ -103,10 +101,9 @@ TEST_F(DdsTransportTest, ArrivalIsTheTimeOfSendingToTheNanosecondWhereAskedFor) 
 }
 
 TEST_F(DdsTransportTest, LateSubscribersReceiveWhatALatchingTopicHeld) {
-  const std::size_t topic =
-      sender_->advertise({"/tf_static", "tf2_msgs/TFMessage", {}, {}, true, true});
+  const std::size_t topic = sender_->advertise("/tf_static", {"tf2_msgs/TFMessage", {}, {}}, true);
   const auto sent = payload(64, 3);
-  sender_->publish(topic, sent.data(), sent.size());
+  sender_->publish(topic, sent);
   subscribe("/tf_static", "tf2_msgs/TFMessage");
   const auto message = received();
   ASSERT_TRUE(message);
@@ -140,7 +137,7 @@ class BestEffort {
 };
 
 TEST_F(DdsTransportTest, AnIncompatiblePublisherIsReportedAndThenHeard) {
-  sender_->advertise({"/imu/data", "sensor_msgs/Imu", {}, {}, false, true});
+  sender_->advertise("/imu/data", {"sensor_msgs/Imu", {}, {}}, false);
   subscribe("/imu/data", "sensor_msgs/Imu");
   const BestEffort other("/imu/data", "sensor_msgs/Imu");
   const auto sent = payload(200, 5);
@@ -158,11 +155,11 @@ TEST_F(DdsTransportTest, AnIncompatiblePublisherIsReportedAndThenHeard) {
 }
 
 TEST_F(DdsTransportTest, TwoPublishersOfATopicAreReported) {
-  sender_->advertise({"/imu/data", "sensor_msgs/Imu", {}, {}, false, true});
+  sender_->advertise("/imu/data", {"sensor_msgs/Imu", {}, {}}, false);
   subscribe("/imu/data", "sensor_msgs/Imu");
   EXPECT_TRUE(receiver_->take_problems().empty());
   const auto second = connect();
-  second->advertise({"/imu/data", "sensor_msgs/Imu", {}, {}, false, true});
+  second->advertise("/imu/data", {"sensor_msgs/Imu", {}, {}}, false);
   std::vector<std::string> problems;
   ASSERT_TRUE(eventually([&] {
     receiver_->wait(0.0);
@@ -173,10 +170,10 @@ TEST_F(DdsTransportTest, TwoPublishersOfATopicAreReported) {
 }
 
 TEST_F(DdsTransportTest, APublisherOfAnotherTypeIsReported) {
-  sender_->advertise({"/imu/data", "sensor_msgs/Imu", {}, {}, false, true});
+  sender_->advertise("/imu/data", {"sensor_msgs/Imu", {}, {}}, false);
   subscribe("/imu/data", "sensor_msgs/Imu");
   const auto other = connect();
-  other->advertise({"/imu/data", "std_msgs/String", {}, {}, false, true});
+  other->advertise("/imu/data", {"std_msgs/String", {}, {}}, false);
   std::vector<std::string> problems;
   ASSERT_TRUE(eventually([&] {
     receiver_->wait(0.0);
@@ -202,25 +199,12 @@ TEST_F(DdsTransportTest, BestEffortPublishersAreHeard) {
 }
 
 TEST_F(DdsTransportTest, TopicsOfTheNodeItselfAndOfNoRosAreNotListed) {
-  receiver_->advertise({"~odometry", "nav_msgs/Odometry", {}, {}, false, true});
-  sender_->advertise({"/clock", "rosgraph_msgs/Clock", {}, {}, false, true});
+  receiver_->advertise("~odometry", {"nav_msgs/Odometry", {}, {}}, false);
+  sender_->advertise("/clock", {"rosgraph_msgs/Clock", {}, {}}, false);
   const std::map<std::string, std::string> expected{{"/clock", "rosgraph_msgs/Clock"}};
   EXPECT_TRUE(eventually([&] { return receiver_->topics() == expected; }));
   sender_.reset();
   EXPECT_TRUE(eventually([&] { return receiver_->topics().empty(); })) << "it has gone";
-}
-
-TEST(DefaultDomain, IsThatOfTheEnvironment) {
-  unsetenv("ROS_DOMAIN_ID");
-  EXPECT_EQ(default_domain().value(), 0U);
-  setenv("ROS_DOMAIN_ID", "42", 1);
-  EXPECT_EQ(default_domain().value(), 42U);
-  for (const char* wrong : {"233", "-1", "x", "4 "}) {
-    setenv("ROS_DOMAIN_ID", wrong, 1);
-    ASSERT_FALSE(default_domain()) << wrong;
-    EXPECT_NE(default_domain().error().message.find("ROS_DOMAIN_ID"), std::string::npos);
-  }
-  unsetenv("ROS_DOMAIN_ID");
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
   if (argc == 5 && std::string(argv[2]) == "listen") return listen(**transport, argv[3], argv[4]);
   std::vector<std::size_t> topics;
   for (int i = 2; i + 1 < argc; i += 2) {
-    topics.push_back((*transport)->advertise({argv[i], argv[i + 1], {}, {}, false, true}));
+    topics.push_back((*transport)->advertise(argv[i], {argv[i + 1], {}, {}}, false));
   }
   for (const std::size_t topic : topics) {
     while ((*transport)->running() && !(*transport)->heard(topic)) (*transport)->wait(0.05);
@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
     for (std::byte& each : bytes) each = static_cast<std::byte>(random());
     if (random() % 2 == 0) bytes[0] = std::byte{0}, bytes[1] = std::byte{1};  // as CDR begins
     for (const std::size_t topic : topics) {
-      (*transport)->publish(topic, bytes.data(), bytes.size());
+      (*transport)->publish(topic, bytes);
     }
   };
   for (std::size_t size = 4; size < 400; ++size) send(size);

@@ -112,9 +112,12 @@ class Live:
         self.play.send_signal(ending)
         self.said = self.play.communicate(timeout=PATIENCE_S)[0]
 
+    def states(self):
+        return [line for line in self.log().splitlines() if line.startswith("health at")]
+
     def silent(self):
         """Whether it has ended, or read all that was sent and said so."""
-        states = [line for line in self.log().splitlines() if line.startswith("health at")]
+        states = self.states()
         return self.live.poll() is not None or bool(states) and "no messages" in states[-1]
 
     def tell(self, command):
@@ -171,6 +174,7 @@ class LiveEstimate(unittest.TestCase):
         self.assertEqual((code, live.play.returncode), (0, 0), log)
         self.assertNotIn("dropped", log)
         self.assertNotIn("warning", log)
+        self.assertIn("no messages", live.states()[-1], "what was queued is no news behind the silence")
         recorded = estimate(live.name + ".mcap", live.name + "-again")
         poses = live.poses().count(b"\n")
         print(f"{live.name}: {poses} poses; of the recording played {len(self.offline.splitlines())}")
@@ -227,10 +231,12 @@ class LiveEstimate(unittest.TestCase):
 
     def test_overloaded_it_drops_the_oldest_clouds_and_counts_them(self):
         live = Live("walk.mcap", "overload", ["--source_time"], pace=1, max_wait=0.05)
-        live.wait_for_walk()
-        live.live.send_signal(signal.SIGSTOP)  # as if another program took the processor
-        time.sleep(0.6)  # of topics that wait, the order of arrival is lost: a second would be a jump of clocks
-        live.live.send_signal(signal.SIGCONT)
+        live.wait_for_poses(10)
+        for _ in range(6):
+            live.live.send_signal(signal.SIGSTOP)  # as if another program took the processor
+            time.sleep(0.6)  # of topics that wait, the order of arrival is lost: a second would be a jump of clocks
+            live.live.send_signal(signal.SIGCONT)
+            live.wait_for_poses(3)
         live.wait_for("cause", lambda: "too slow" in live.log())
         live.stop_play(signal.SIGTERM)
         self.assertEqual(live.finish(), 0, live.log())
@@ -238,6 +244,8 @@ class LiveEstimate(unittest.TestCase):
         self.assertIsNotNone(dropped, live.log())
         self.assertRegex(live.log(), r"health .*: degraded: the node is too slow: \d+ messages dropped")
         self.assertNotIn("no LiDAR scans", live.log(), "which is the effect")
+        self.assertNotIn("messages are missing", live.log(), "nobody else lost them")
+        self.assertLess(len(live.states()), 8, "the health does not flicker")
         print(f"overload: {dropped[1]} messages dropped")
         self.assertEqual(live.poses(), estimate("overload.mcap", "overload-again"), "without the dropped ones")
 
@@ -257,6 +265,22 @@ class LiveEstimate(unittest.TestCase):
         self.assertEqual(len(second), len(recorded))
         self.assertAlmostEqual(distance(second[0], second[-1]), distance(recorded[0], recorded[-1]), delta=0.01)
         self.assertGreater(distance(second[0], second[-1]), 1.0, "and walks")
+
+    def test_a_topic_with_two_publishers_is_in_the_health_while_there_are_two(self):
+        live = Live("walk.mcap", "twice", pace=1)
+        live.wait_for_poses(10)
+        first = live.play
+        live.start_play()
+        live.wait_for("second publisher", lambda: "/imu/data has 2 publishers" in live.states()[-1])
+        live.wait_for_poses(20)
+        first.terminate()
+        live.stop_play(signal.SIGTERM)
+        first.communicate(timeout=PATIENCE_S)
+        self.assertEqual(live.finish(), 0, live.log())
+        states = live.states()
+        found = next(i for i, state in enumerate(states) if "2 publishers" in state)
+        self.assertNotIn("healthy", " ".join(states[found:]), "it does not flicker")
+        self.assertIn(b"/lidar/points has 2 publishers", content("twice/aims_d.health.csv"))
 
     def test_fixed_transforms_that_are_sent_once_last_when_the_estimate_starts_anew(self):
         once = altered("once.bag", lambda topic, message, stamp: (message, stamp))
@@ -411,6 +435,20 @@ class LiveEstimate(unittest.TestCase):
         self.assertRegex(live.log(), "warning: .*full.mcap")
         self.assertGreater(len(places(live.poses())), 60, live.log())
         self.assertIn(b"the recording cannot be written", content("full/aims_d.health.csv"))
+
+    def test_an_estimator_that_fails_ends_the_program(self):
+        if subprocess.run(["/usr/bin/python3", "-c", "import numpy"], check=False, capture_output=True).returncode:
+            self.skipTest("python3-numpy is not installed")
+        with open("unlucky.py", "w", encoding="utf-8") as file:
+            file.write("class Unlucky:\n def __init__(self, rig): pass\n"
+                       " def add_scan(self, *scan): raise ValueError('out of luck')\n")
+        live = Live("walk.mcap", "failed", ["--estimator", "mine=python:unlucky.Unlucky"],
+                    limit=["env", "AIMS_PYTHON=/usr/bin/python3"])
+        self.assertEqual(live.live.wait(PATIENCE_S), 2, live.log())
+        live.kill()
+        live.play.communicate()
+        self.assertIn("aims_live: python:unlucky.Unlucky: add_scan: ValueError: out of luck", live.log())
+        self.assertIn(b"invalid,the estimator has failed", content("failed/mine.health.csv"))
 
     def test_each_setting_of_the_unit_is_one_word(self):
         file = os.path.join(os.path.dirname(SCENARIO), "..", "..", "live", "aims-live.service")

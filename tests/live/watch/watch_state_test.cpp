@@ -7,6 +7,7 @@
 #include <string>
 
 #include "recordings/messages/message_encoding.hpp"
+#include "recordings/messages/message_types.hpp"
 
 namespace aims {
 namespace {
@@ -16,9 +17,10 @@ using Json = nlohmann::json;
 class WatchStateTest : public testing::Test {
  protected:
   void take(const std::string& type, const MessageBytes& bytes) {
-    auto connection = std::make_shared<LiveConnection>();
+    auto connection = std::make_shared<BagConnection>();
     connection->type = type;
-    connection->cdr = true;
+    connection->format = kRos2Format;
+    complete_definition(type, connection->definition, connection->format);
     const auto view = bytes.view();
     state_.take({connection, 1, {view.begin(), view.end()}});
   }

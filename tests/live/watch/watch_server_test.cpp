@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "live/watch/web_server.hpp"
+#include "live/watch/watch_server.hpp"
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
@@ -30,56 +30,60 @@ std::string answer(std::uint16_t port, const std::string& request) {
   return text;
 }
 
-class WebServerTest : public testing::Test {
+class WatchServerTest : public testing::Test {
  protected:
-  WebServerTest() {
-    auto started = WebServer::start("127.0.0.1", 0, [](const std::string& target) -> WebContent {
-      if (target == "/here?x=1") return {"text/plain", "found"};
-      return {};
-    });
+  WatchServerTest() {
+    auto started = WatchServer::start("127.0.0.1", 0, state_);
     EXPECT_TRUE(started) << started.error().message;
     server_ = std::move(*started);
   }
   std::string get(const std::string& target, const std::string& host) const {
     return answer(server_->port(), "GET " + target + " HTTP/1.1\r\nHost: " + host + "\r\n\r\n");
   }
-  std::unique_ptr<WebServer> server_;
+  WatchState state_{"/aims/odometry"};
+  std::unique_ptr<WatchServer> server_;
 };
 
-TEST_F(WebServerTest, AnswersWithWhatThePathHas) {
-  const std::string found = get("/here?x=1", "127.0.0.1:8631");
+TEST_F(WatchServerTest, AnswersWithTheState) {
+  const std::string found = get("/state.json?epoch=1", "127.0.0.1:8631");
   EXPECT_TRUE(found.starts_with("HTTP/1.1 200 ")) << found;
-  EXPECT_TRUE(found.ends_with("\r\n\r\nfound")) << found;
-  EXPECT_NE(found.find("Content-Type: text/plain"), std::string::npos);
+  EXPECT_TRUE(found.ends_with("\r\n\r\n" + state_.json(1, 0))) << found;
+  EXPECT_NE(found.find("Content-Type: application/json"), std::string::npos);
+  EXPECT_NE(found.find("X-Content-Type-Options: nosniff"), std::string::npos);
   EXPECT_TRUE(get("/gone", "localhost").starts_with("HTTP/1.1 404 "));
 }
 
-TEST_F(WebServerTest, TakesNoCommands) {
+TEST_F(WatchServerTest, TakesNoCommands) {
   for (const char* method : {"POST", "PUT", "DELETE"}) {
     const std::string request =
-        std::string(method) + " /here?x=1 HTTP/1.1\r\nHost: localhost\r\n\r\n";
+        std::string(method) + " /state.json?epoch=1 HTTP/1.1\r\nHost: localhost\r\n\r\n";
     EXPECT_TRUE(answer(server_->port(), request).starts_with("HTTP/1.1 405 ")) << method;
   }
 }
 
-TEST_F(WebServerTest, RefusesPagesOfOtherSites) {
+TEST_F(WatchServerTest, RefusesPagesOfOtherSites) {
   for (const char* host : {"evil.example", "evil.example:8631", "", "localhost.evil.example"}) {
-    EXPECT_TRUE(get("/here?x=1", host).starts_with("HTTP/1.1 403 ")) << host;
+    EXPECT_TRUE(get("/state.json?epoch=1", host).starts_with("HTTP/1.1 403 ")) << host;
   }
   for (const char* host : {"localhost", "localhost:1", "[::1]:8631", "127.0.0.1"}) {
-    EXPECT_TRUE(get("/here?x=1", host).starts_with("HTTP/1.1 200 ")) << host;
+    EXPECT_TRUE(get("/state.json?epoch=1", host).starts_with("HTTP/1.1 200 ")) << host;
   }
 }
 
-TEST_F(WebServerTest, SurvivesWhatIsNoRequest) {
-  EXPECT_EQ(answer(server_->port(), std::string(20'000, 'x') + "\r\n\r\n"), "");
-  EXPECT_TRUE(get("/here?x=1", "localhost").starts_with("HTTP/1.1 200 "));
+TEST_F(WatchServerTest, SurvivesWhatIsNoRequest) {
+  EXPECT_EQ(answer(server_->port(), std::string(20'000, 'x') + "\r\n\r\n").find(" 200 "),
+            std::string::npos);
+  EXPECT_TRUE(get("/state.json", "localhost").starts_with("HTTP/1.1 200 "));
 }
 
-TEST(WebServer, NamesTheAddressThatIsNone) {
-  const auto wrong = WebServer::start("here", 0, {});
+TEST_F(WatchServerTest, NamesTheAddressThatIsNoneAndThePortThatIsTaken) {
+  const auto wrong = WatchServer::start("here.invalid", 0, state_);
   ASSERT_FALSE(wrong);
-  EXPECT_NE(wrong.error().message.find("'here': expected an address"), std::string::npos);
+  EXPECT_NE(wrong.error().message.find("here.invalid port 0: expected an address"),
+            std::string::npos);
+  const auto taken = WatchServer::start("127.0.0.1", server_->port(), state_);
+  ASSERT_FALSE(taken);
+  EXPECT_NE(taken.error().message.find("a free port"), std::string::npos);
 }
 
 }  // namespace

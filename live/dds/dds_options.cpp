@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "live/dds/dds_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+
+namespace aims {
+namespace {
+
+constexpr std::uint32_t kMaxDomain = 232;  ///< beyond it ports exceed 65535
+
+std::string is_domain(const std::string& text) {
+  std::uint32_t domain = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, domain);
+  const bool fits = error == std::errc() && stop == end && domain <= kMaxDomain;
+  return fits ? ""
+              : fmt::format("expected a number from 0 to {}, also in $ROS_DOMAIN_ID, got '{}'",
+                            kMaxDomain, text);
+}
+
+/// What ROS 2 takes as a namespace: words of letters, digits and _, joined by /.
+std::string is_node_name(const std::string& name) {
+  const bool fits = std::ranges::all_of(
+      name, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '/'; });
+  const bool joined = !name.empty() && name.front() != '/' && name.back() != '/' &&
+                      name.find("//") == std::string::npos &&
+                      std::isdigit(static_cast<unsigned char>(name.front())) == 0;
+  return fits && joined ? ""
+                        : fmt::format("expected letters, digits and _, e.g. aims, got '{}'", name);
+}
+
+}  // namespace
+
+void add_domain_option(CLI::App& app, DdsOptions& options) {
+  app.add_option("--domain", options.domain, "DDS domain ($ROS_DOMAIN_ID, else 0)")
+      ->envname("ROS_DOMAIN_ID")
+      ->check(is_domain);
+}
+
+void add_node_option(CLI::App& app, DdsOptions& options, const std::string& help) {
+  app.add_option("--node", options.node, help)->check(is_node_name);
+}
+
+}  // namespace aims
