@@ -132,8 +132,14 @@ void EskfEstimator::coast() {
 
 HealthRow EskfEstimator::judged_health() {
   judged_ = queue_.now();
-  const auto estimate = started_ ? std::optional(health_estimate(belief_)) : std::nullopt;
-  return health_.judge(*judged_, queue_.inputs(), estimate);
+  if (!started_) return health_.judge(*judged_, queue_.inputs(), std::nullopt);
+  // Soft joints degrade the estimate by a reason of their own: their deviation is a bound, by which
+  // no estimate becomes invalid.
+  HealthEstimate estimate = health_estimate(belief_);
+  estimate.soft_leg_sigma = sigma_of_soft_legs();
+  HealthRow row = health_.judge(*judged_, queue_.inputs(), estimate);
+  row.position_sigma = health_estimate(belief_, covariance_of_soft_joints()).position_sigma;
+  return row;
 }
 
 /// The pipeline of one scan. Leg packets since the last scan have corrected the belief at their own
@@ -177,8 +183,8 @@ void EskfEstimator::record_scan(ScanDiagnostics& diagnostics) {
   diagnostics.mount = so3_log(belief_.state.mount);
   const Eigen::Matrix3d rig = rig_covariance(first_belief_.state.T_odom_body(),
                                              belief_.state.T_odom_body(), config_.calibration);
-  record_covariance(belief_, lidar_update_.map_covariance() + rig, sigma_of_fixed_mount(config_),
-                    diagnostics);
+  record_covariance(belief_, lidar_update_.map_covariance() + rig + covariance_of_soft_joints(),
+                    sigma_of_fixed_mount(config_), diagnostics);
   result_.diagnostics.scans.push_back(row_of(diagnostics));
 }
 

@@ -62,6 +62,9 @@ class EskfEstimator : public Estimator, public MotionSource {
   void repeat_lost_legs(Time until);
   void fuse_leg_velocity(const LegOdometrySample& sample);
   bool scans_measure_scale_of_feet() const;
+  double excess_of_soft_joints() const;
+  Eigen::Matrix3d covariance_of_soft_joints() const;
+  double sigma_of_soft_legs() const;
   bool has_scans() const;
   LinearMeasurement reported_velocity(const LegOdometrySample& sample);
   bool fuse_zero_velocity(const LegOdometrySample& sample);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The part of EskfEstimator that fuses leg packets.
 #include <algorithm>
+#include <cmath>
 
 #include "estimator/aims/eskf_estimator.hpp"
 #include "estimator/legs/leg_velocity_model.hpp"
@@ -136,6 +137,29 @@ void EskfEstimator::fuse_standing(const Eigen::Vector3d& rate) {
 bool EskfEstimator::scans_measure_scale_of_feet() const {
   return feet_.compliance().is_learned() && lidar_update_.constrains_all_directions() &&
          last_scan_ && time_ - *last_scan_ < kScanIsRecent;
+}
+
+/// By how much the variance of the scale of feet is larger than that of the belief, relative to it,
+/// since joints are soft. In the belief it would move the estimate without a measurement.
+double EskfEstimator::excess_of_soft_joints() const {
+  if (!last_leg_ || !feet_.applies(*last_leg_) || robot_.judges_legs()) return 0.0;
+  const double sigma = feet_scale_sigma(feet_.compliance().part_of_way()) / kFeetScaleSigma;
+  return sigma * sigma - 1.0;
+}
+
+/// What soft joints add to the covariance of the position, odometry axes [m^2].
+Eigen::Matrix3d EskfEstimator::covariance_of_soft_joints() const {
+  const double excess = excess_of_soft_joints();
+  return excess > 0.0 ? Eigen::Matrix3d(excess * position_covariance_by_leg_scale(belief_))
+                      : Eigen::Matrix3d::Zero();
+}
+
+/// Deviation of the scale of legs on soft joints, smaller once scans have measured it; 0 on stiff
+/// ones.
+double EskfEstimator::sigma_of_soft_legs() const {
+  const double excess = excess_of_soft_joints();
+  const int scale = ErrorState::kLegScale.offset;
+  return excess > 0.0 ? std::sqrt((1.0 + excess) * belief_.covariance(scale, scale)) : 0.0;
 }
 
 /// The start counts as a scan: the first one follows.

@@ -49,8 +49,9 @@ struct HealthMonitor::Findings {
   std::vector<std::string> invalid;
 };
 
-HealthEstimate health_estimate(const Belief& belief) {
-  const Eigen::Matrix3d P = block(belief.covariance, ErrorState::kPosition, ErrorState::kPosition);
+HealthEstimate health_estimate(const Belief& belief, const Eigen::Matrix3d& others) {
+  const Eigen::Matrix3d P =
+      block(belief.covariance, ErrorState::kPosition, ErrorState::kPosition) + others;
   return {belief.state.position, belief.state.velocity.norm(),
           std::sqrt(std::max(0.0, P.diagonal().maxCoeff()))};
 }
@@ -136,6 +137,9 @@ void HealthMonitor::judge_estimate(const HealthEstimate& estimate, Findings& fin
   if (estimate.speed < kMinSpeed) weak_scans_ = 0;
   if (!sources_.legs && weak_scans_ >= kWeakScans) {
     findings.degraded.emplace_back("scans leave one direction free");
+  }
+  if (estimate.soft_leg_sigma > kSigmaPerPath) {
+    findings.degraded.emplace_back("soft joints make the distance uncertain");
   }
   const double limit = kSigmaOffset + kSigmaPerPath * path_;
   if (estimate.position_sigma > limit) {

@@ -23,10 +23,12 @@ struct HealthEstimate {
   Eigen::Vector3d position;     ///< odometry frame [m]
   double speed = 0.0;           ///< [m/s]
   double position_sigma = 0.0;  ///< stated, along the least certain axis [m]; NaN: none stated
+  double soft_leg_sigma = 0.0;  ///< of the scale of legs on soft joints; on stiff ones 0 [-]
 };
 
-/// The same of a belief.
-HealthEstimate health_estimate(const Belief& belief);
+/// The same of a belief, whose position has the covariance `others` besides (odometry axes) [m^2].
+HealthEstimate health_estimate(const Belief& belief,
+                               const Eigen::Matrix3d& others = Eigen::Matrix3d::Zero());
 
 /// Judges an estimate by what arrives and by how well the sources agree. It never sees the truth:
 /// errors in which all sources agree stay unnoticed.

@@ -77,10 +77,14 @@ void FeetOdometry::learn_compliance(const JointState& joints, const Eigen::Vecto
   const FootVelocities change =
       velocities_from_feet(yielding, 0.0, Eigen::Vector3d::Zero(), up, rig_.leg_geometry);
   const Eigen::Map<const LoadShares> weight(weights.data());
-  compliance_.update(
-      {up.dot(mean_of_feet(rigid, weights)) - climb, up.dot(mean_of_feet(change, weights)),
-       -weight.dot(joints.load_rate) / weight.sum()},
-      rig_.leg_rate_hz);
+  const Eigen::Vector3d yielding_more = mean_of_feet(change, weights);
+  const Eigen::Vector3d level = select.predicted - up.dot(select.predicted) * up;
+  compliance_.update({.climb = up.dot(mean_of_feet(rigid, weights)) - climb,
+                      .joints = up.dot(yielding_more),
+                      .rubber = -weight.dot(joints.load_rate) / weight.sum(),
+                      .along = level.stableNormalized().dot(yielding_more),
+                      .speed = level.norm()},
+                     rig_.leg_rate_hz);
 }
 
 std::optional<LinearMeasurement> FeetOdometry::measure(const LegOdometrySample& sample,

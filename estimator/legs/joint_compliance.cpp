@@ -23,6 +23,9 @@ constexpr double kClimbSigma = 0.01;
 constexpr double kRubber = 5e-3;
 constexpr double kRubberSigma = 4e-3;
 
+/// Before, the part of the way that joints take is not known: a standing robot sways [m].
+constexpr double kShortestWay = 1.0;
+
 /// Softer joints do not carry a robot [rad/m].
 constexpr double kLargestCompliance = 3.0;
 
@@ -64,12 +67,19 @@ void JointCompliance::update(const Drift& drift, double rate_hz) {
   mean_.climb += gain * (drift.climb - mean_.climb);
   mean_.joints += gain * (drift.joints - mean_.joints);
   mean_.rubber += gain * (drift.rubber - mean_.rubber);
+  mean_.along += gain * (drift.along - mean_.along);
+  mean_.speed += gain * (drift.speed - mean_.speed);
   judge_known();
   if (known_variance_) return;
   const double response = kSigma * kSigma * mean_.joints;
   const double beyond_prior = beyond_rubber() + mean_.joints * kPrior;
   value_ = std::clamp(kPrior - response * beyond_prior / (response * mean_.joints + variance()),
                       0.0, kLargestCompliance);
+}
+
+double JointCompliance::part_of_way() const {
+  if (mean_.speed * walked_ < kShortestWay) return 0.0;
+  return std::max(0.0, value_ * mean_.along / mean_.speed);
 }
 
 /// The mean climb that rubber of the usual stiffness does not explain [m/s].

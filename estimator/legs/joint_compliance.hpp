@@ -35,6 +35,10 @@ class JointCompliance {
 
   double value() const { return value_; }  ///< W / K [rad/m]
 
+  /// The part of the way that joints of this value take, by which rigid legs would be too short, as
+  /// far as it is learned; 0 before a metre of walking [-].
+  double part_of_way() const;
+
   /// Whether it has walked long enough, or is known: the value then stays, and with it the scale of
   /// the legs.
   bool is_learned() const;
@@ -59,6 +63,8 @@ class JointCompliance {
     double climb = 0.0;   ///< vertical velocity by rigid legs minus the true one [m/s]
     double joints = 0.0;  ///< its derivative by W / K [m^2/(rad s)]
     double rubber = 0.0;  ///< its derivative by W / k [1/s]
+    double along = 0.0;   ///< derivative of the velocity along the way by W / K [m^2/(rad s)]
+    double speed = 0.0;   ///< level [m/s]
   };
   /// Adds a packet's `drift`, at `rate_hz` [Hz]. Learns for 20 s, then stays.
   void update(const Drift& drift, double rate_hz);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/legs/leg_states.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +10,12 @@ namespace {
 
 /// Time constant of the mean over a stride; a stride of a quadruped lasts half a second [s].
 constexpr double kStride = 0.5;
+
+/// Joints that take less of the way are covered by kFeetScaleSigma [-]. Of what they take beyond,
+/// each point adds two to the deviation: their load comes late and is held, and the way before they
+/// are learned is not revised.
+constexpr double kUsualPartOfWay = 0.08;
+constexpr double kSigmaBeyond = 2.0;
 
 void add_variance(ErrorMatrix& covariance, ErrorState::Block at, double sigma, double factor) {
   block(covariance, at, at).diagonal().array() += factor * sigma * sigma;
@@ -28,6 +35,17 @@ Belief open_leg_states(Belief belief, const LegStatesConfig& config) {
   add_variance(belief.covariance, ErrorState::kLegScale, config.scale_sigma, 1.0);
   add_variance(belief.covariance, ErrorState::kLegBias, kLegBiasSigma, 1.0);
   return belief;
+}
+
+double feet_scale_sigma(double part) {
+  return kFeetScaleSigma + kSigmaBeyond * std::max(0.0, part - kUsualPartOfWay);
+}
+
+Eigen::Matrix3d position_covariance_by_leg_scale(const Belief& belief) {
+  using E = ErrorState;
+  const Eigen::Matrix3d scale = block(belief.covariance, E::kLegScale, E::kLegScale);
+  const Eigen::Matrix3d shared = block(belief.covariance, E::kPosition, E::kLegScale);
+  return shared * scale.ldlt().solve(shared.transpose());
 }
 
 void walk_leg_states(Belief& belief, const LegStatesConfig& config, double dt) {

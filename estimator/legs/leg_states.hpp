@@ -21,6 +21,10 @@ inline constexpr double kLegBiasSigma = 0.01;
 /// (docs/decisions.md#each-foot-is-a-measurement).
 inline constexpr double kFeetScaleSigma = 0.04;
 
+/// The same where joints take the fraction `part` of the way
+/// (docs/decisions.md#soft-joints-make-the-scale-uncertain).
+double feet_scale_sigma(double part);
+
 /// Scale and bias of the leg odometry as filter states.
 struct LegStatesConfig {
   bool enabled = false;       ///< estimate a scale and a bias per axis
@@ -31,6 +35,9 @@ void describe(Fields& fields, LegStatesConfig& config);
 
 /// The belief with the initial variances of the leg states, where they are enabled.
 Belief open_leg_states(Belief belief, const LegStatesConfig& config);
+
+/// The part of the covariance of the position that the leg scale explains, odometry axes [m^2].
+Eigen::Matrix3d position_covariance_by_leg_scale(const Belief& belief);
 
 /// Adds the random walk of the enabled leg states over `dt` [s].
 void walk_leg_states(Belief& belief, const LegStatesConfig& config, double dt);

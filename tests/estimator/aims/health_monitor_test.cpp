@@ -145,6 +145,19 @@ TEST(HealthMonitor, HoldsTheStatedDeviationAgainstTheLimitOfASuccess) {
   EXPECT_EQ(state_at(1.1), HealthState::kInvalid);
 }
 
+TEST(HealthMonitor, NamesSoftJointsOnceTheyMayCostTheSuccess) {
+  const auto row_at = [](double sigma) {
+    HealthMonitor monitor = full_monitor();
+    HealthEstimate estimate = kStill;
+    estimate.soft_leg_sigma = sigma;
+    return monitor.judge(kNow, good_inputs(), estimate);
+  };
+  EXPECT_EQ(row_at(0.045).state, HealthState::kHealthy);
+  EXPECT_EQ(row_at(0.06).state, HealthState::kDegraded);
+  EXPECT_TRUE(has(row_at(0.06), "soft joints make the distance uncertain"));
+  EXPECT_EQ(row_at(0.3).state, HealthState::kDegraded) << "a bound makes no estimate invalid";
+}
+
 TEST(HealthMonitor, DoesNotMissWhatTheEstimatorDoesNotUse) {
   HealthMonitor legs_alone({.legs = true}, 9.81);
   InputMonitor inputs;

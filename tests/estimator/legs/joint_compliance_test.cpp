@@ -80,6 +80,18 @@ TEST(JointCompliance, ADriftThatRigidLegsHaveIsNotCompliance) {
   EXPECT_LT(compliance.value(), 0.15);  // 0.25 by that drift alone
 }
 
+// At 0.5 m/s with 0.06 m/s per unit of compliance.
+TEST(JointCompliance, KnowsWhichPartOfTheWayJointsTake) {
+  JointCompliance compliance;
+  const JointCompliance::Drift soft{
+      .climb = -0.1, .joints = 0.1, .rubber = 0.0, .along = 0.06, .speed = 0.5};
+  for (int i = 0; i < 300; ++i) compliance.update(soft, kRate);
+  EXPECT_EQ(compliance.part_of_way(), 0.0) << "after less than a metre";
+  for (int i = 0; i < 5000; ++i) compliance.update(soft, kRate);
+  EXPECT_NEAR(compliance.part_of_way(), 0.12 * compliance.value(), 1e-12);
+  EXPECT_GT(compliance.part_of_way(), 0.1);
+}
+
 TEST(JointCompliance, IsNeverNegative) {
   JointCompliance compliance;
   for (int i = 0; i < 4000; ++i) compliance.update({0.1, 0.1}, kRate);

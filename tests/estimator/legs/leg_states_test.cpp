@@ -42,6 +42,45 @@ TEST(LegStates, VarianceGrowsWithTime) {
               5.0 * kLegBiasWalk * kLegBiasWalk, 1e-14);
 }
 
+TEST(LegStates, FeetOnSoftJointsHaveAScaleThatIsLessCertain) {
+  EXPECT_EQ(feet_scale_sigma(0.0), kFeetScaleSigma);
+  EXPECT_EQ(feet_scale_sigma(0.08), kFeetScaleSigma);
+  EXPECT_NEAR(feet_scale_sigma(0.1), 0.08, 1e-12);
+}
+
+/// The belief of a robot that walks along x by legs whose scale is uncertain by `sigma`, and is not
+/// corrected; something measures its position weakly.
+Belief walked_with_scale(double sigma) {
+  Belief belief = fixed_legs();
+  block(belief.covariance, E::kLegScale, E::kLegScale) =
+      sigma * sigma * Eigen::Matrix3d::Identity();
+  LinearMeasurement legs;
+  columns(legs.jacobian, E::kVelocity).setIdentity();
+  columns(legs.jacobian, E::kLegScale) = Eigen::Vector3d(0.7, 0.1, 0.0).asDiagonal();
+  legs.noise = 0.01 * Eigen::Matrix3d::Identity();
+  ErrorMatrix step = ErrorMatrix::Identity();
+  block(step, E::kPosition, E::kVelocity) = 0.01 * Eigen::Matrix3d::Identity();
+  for (int i = 0; i < 1000; ++i) {
+    belief.covariance = step * belief.covariance * step.transpose();
+    block(belief.covariance, E::kVelocity, E::kVelocity).diagonal().array() += 1e-4;
+    belief = fuse_given_legs(belief, legs);
+  }
+  return belief;
+}
+
+// What a filter states that has started with the larger deviation of the scale.
+TEST(LegStates, AddWhatALessCertainScaleMakesOfThePosition) {
+  const Belief belief = walked_with_scale(0.04);
+  const Belief expected = walked_with_scale(0.1);
+  const Eigen::Matrix3d more =
+      (0.1 * 0.1 / (0.04 * 0.04) - 1.0) * position_covariance_by_leg_scale(belief);
+  const Eigen::Matrix3d difference = block(expected.covariance, E::kPosition, E::kPosition) -
+                                     block(belief.covariance, E::kPosition, E::kPosition);
+  ASSERT_GT(more(0, 0), 0.1) << "the scale has something to do";
+  EXPECT_LT((difference - more).norm(), 1e-9 * more.norm());
+  EXPECT_TRUE(position_covariance_by_leg_scale(Belief{{}, ErrorMatrix::Zero()}).isZero(0.0));
+}
+
 constexpr Duration kPeriod = 5 * kMillisecond;
 
 /// The means of a robot that walks at `speed(t)` along x, sample after sample.
