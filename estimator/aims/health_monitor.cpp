@@ -72,6 +72,7 @@ void HealthMonitor::scan(const ScanDiagnostics& scan, std::size_t points) {
   average(scan.innovation_position.norm(), position_residual_);
   average(scan.imu_noise.gyro * std::sqrt(kScanInterval), expected_rotation_);
   average(scan.imu_noise.accelerometer * std::pow(kScanInterval, 1.5), expected_position_);
+  average(scan.weak_tilt, weak_tilt_);
   weak_scans_ = scan.weak_tilt < kFreeTilt ? weak_scans_ + 1 : 0;
 }
 
@@ -130,7 +131,8 @@ void HealthMonitor::judge_agreement(Findings& findings) const {
   if (not_finite_) findings.degraded.emplace_back("an update was not finite");
 }
 
-void HealthMonitor::judge_estimate(const HealthEstimate& estimate, Findings& findings) {
+void HealthMonitor::judge_estimate(const HealthEstimate& estimate, bool scans_hold_the_way,
+                                   Findings& findings) {
   if (last_position_) path_ += (estimate.position - *last_position_).norm();
   last_position_ = estimate.position;
   if (estimate.speed > kMaxSpeed) findings.invalid.emplace_back("faster than a robot walks");
@@ -138,7 +140,7 @@ void HealthMonitor::judge_estimate(const HealthEstimate& estimate, Findings& fin
   if (!sources_.legs && weak_scans_ >= kWeakScans) {
     findings.degraded.emplace_back("scans leave one direction free");
   }
-  if (estimate.soft_leg_sigma > kSigmaPerPath) {
+  if (estimate.soft_leg_sigma > kSigmaPerPath && !scans_hold_the_way) {
     findings.degraded.emplace_back("soft joints make the distance uncertain");
   }
   const double limit = kSigmaOffset + kSigmaPerPath * path_;
@@ -164,7 +166,8 @@ HealthRow HealthMonitor::judge(Time now, const InputMonitor& inputs,
   judge_inputs(now, inputs, findings);
   if (estimate) {
     judge_agreement(findings);
-    judge_estimate(*estimate, findings);
+    const bool scans_hold_the_way = lidar_corrects(now, inputs) && weak_tilt_ > kFreeTilt;
+    judge_estimate(*estimate, scans_hold_the_way, findings);
   }
   not_finite_ = false;
   if (!findings.invalid.empty()) {

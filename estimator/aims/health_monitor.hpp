@@ -58,7 +58,7 @@ class HealthMonitor {
   struct Findings;
   void judge_inputs(Time now, const InputMonitor& inputs, Findings& findings) const;
   void judge_agreement(Findings& findings) const;
-  void judge_estimate(const HealthEstimate& estimate, Findings& findings);
+  void judge_estimate(const HealthEstimate& estimate, bool scans_hold_the_way, Findings& findings);
   bool lidar_corrects(Time now, const InputMonitor& inputs) const;
 
   HealthSources sources_;
@@ -68,6 +68,7 @@ class HealthMonitor {
   double position_residual_ = 0.0;  ///< likewise [m]
   double expected_rotation_ = 0.0;  ///< moving average, what the noise of the IMU makes [rad]
   double expected_position_ = 0.0;  ///< likewise [m]
+  double weak_tilt_ = 0.0;          ///< likewise, of the planes towards the weakest axis [rad]
   double matched_ = 1.0;            ///< moving average of the fraction of matched points
   int scans_without_update_ = 0;    ///< in a row
   int weak_scans_ = 0;              ///< in a row, which leave an axis free

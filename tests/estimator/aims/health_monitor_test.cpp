@@ -146,8 +146,11 @@ TEST(HealthMonitor, HoldsTheStatedDeviationAgainstTheLimitOfASuccess) {
 }
 
 TEST(HealthMonitor, NamesSoftJointsOnceTheyMayCostTheSuccess) {
-  const auto row_at = [](double sigma) {
+  const auto row_at = [](double sigma, double tilt = 0.003) {
     HealthMonitor monitor = full_monitor();
+    ScanDiagnostics scan = good_scan();
+    scan.weak_tilt = tilt;
+    for (int i = 0; i < 100; ++i) monitor.scan(scan, 1000);
     HealthEstimate estimate = kStill;
     estimate.soft_leg_sigma = sigma;
     return monitor.judge(kNow, good_inputs(), estimate);
@@ -155,6 +158,7 @@ TEST(HealthMonitor, NamesSoftJointsOnceTheyMayCostTheSuccess) {
   EXPECT_EQ(row_at(0.045).state, HealthState::kHealthy);
   EXPECT_EQ(row_at(0.06).state, HealthState::kDegraded);
   EXPECT_TRUE(has(row_at(0.06), "soft joints make the distance uncertain"));
+  EXPECT_EQ(row_at(0.06, 0.05).state, HealthState::kHealthy) << "scans hold the way";
   EXPECT_EQ(row_at(0.3).state, HealthState::kDegraded) << "a bound makes no estimate invalid";
 }
 
