@@ -15,7 +15,7 @@
 #include "core/stopwatch.hpp"
 #include "live/inbox.hpp"
 #include "recordings/messages/message_values.hpp"
-#include "recordings/stream/decided_start.hpp"
+#include "recordings/source/decided_start.hpp"
 #include "recordings/topics/recording_topics.hpp"
 
 namespace aims {
@@ -162,7 +162,7 @@ Result<RecordingReader> try_open(Transport& transport, Commands& commands,
   auto wait = waiting_for(transport, commands, options);
   auto source = std::make_unique<LiveSource>(gathering.messages(), wait);
   LiveSource& live = *source;
-  auto reader = RecordingReader::open(std::move(source), config);
+  auto reader = open_live(std::move(source), config);
   if (!reader) return reader;
   if (auto ok = check_setup(reader->setup()); !ok) return tl::unexpected(ok.error());
   // A record has each topic to its end: the truth too, which the estimate does not read. The next

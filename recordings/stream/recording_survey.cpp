@@ -29,6 +29,7 @@ constexpr double kLeastGravity = 0.5;  ///< of the mean force, as a fraction of 
 constexpr double kLeastForce = 5.0, kMostForce = 15.0;
 constexpr double kStrangeImu = 5.0;    ///< of stamps in another unit [Hz]
 constexpr double kSlowImu = 40.0;      ///< too slow for a walk [Hz]
+constexpr double kSlowLegs = 20.0;     ///< a stance of a trot lasts for 0.25 s [Hz]
 constexpr double kFastImu = 20'000.0;  ///< [Hz]
 
 /// Replaces the nominal rate of a sensor by the measured one where they differ by more than 10 %.
@@ -361,6 +362,15 @@ void RecordingSurvey::warn_of_odometry(const std::string& type) {
                           topic));
 }
 
+void RecordingSurvey::warn_of_slow_legs(const std::optional<double>& rate) {
+  if (!rate || *rate >= kSlowLegs) return;
+  notes_.warn("legs are slow",
+              fmt::format("legs of {:.3g} Hz: a foot stands for few samples, and where speeds are "
+                          "differences they are too low; 50 Hz or more are recommended: are they "
+                          "sent at a reduced rate?",
+                          *rate));
+}
+
 void RecordingSurvey::decide_legs(RecordingPlan& plan) {
   const Seen& legs = seen(Role::kLegs);
   warn_of_odometry(legs.type);
@@ -376,14 +386,17 @@ void RecordingSurvey::decide_legs(RecordingPlan& plan) {
   stream.geometry = config_.leg_geometry;
   stream.foot_model = config_.foot_model;
   stream.source = legs_.decide_source(legs.type, legs.frame, notes_);
+  stream.contacts_on_change = legs_.contacts_hold(notes_);
   const bool kinematic = stream.source == LegSource::kKinematics;
   plan.setup.leg_rate_hz = rate_of(kinematic ? Role::kJoints : Role::kLegs, plan);
   plan.joints = legs_.joint_rule();
   plan.setup.leg_lack = legs_.lack();
   plan.setup.has_legs = stream.source != LegSource::kNone;
-  plan.setup.has_joints = legs_.has_joints_and_contacts();
+  // Samples of feet have no angles.
+  plan.setup.has_joints = stream.source != LegSource::kFeet && legs_.has_joints_and_contacts();
   plan.setup.rig.leg_geometry = config_.leg_geometry;
   adopt_rate(plan.setup.leg_rate_hz, "leg odometry", plan.setup.rig.leg_rate_hz, notes_);
+  if (kinematic || stream.source == LegSource::kFeet) warn_of_slow_legs(plan.setup.leg_rate_hz);
   const double rate = plan.setup.leg_rate_hz.value_or(100.0);
   stream.half_period = from_seconds(std::clamp(0.5 / rate, 1e-9, 0.5));
   const Duration late = contact_lateness(plan);
@@ -484,8 +497,10 @@ void RecordingSurvey::decide_truth(RecordingPlan& plan) {
 }
 
 Time RecordingSurvey::start(const BagSummary& summary) const {
-  const bool unset = summary.start < kSetRecordTime && first_set_;
-  return unset ? *first_set_ : summary.start;
+  constexpr Duration kMostBefore = 60 * kSecond;  // of fixed transforms in a file of their own
+  if (!first_set_) return summary.start;
+  const bool unset = summary.start < kSetRecordTime;
+  return unset || *first_set_ - summary.start > kMostBefore ? *first_set_ : summary.start;
 }
 
 /// Marks the warnings from `first` on as those of a sensor.

@@ -118,6 +118,7 @@ class RecordingSurvey {
   void warn_of_motion(const RecordingPlan& plan);
   void decide_imu(RecordingPlan& plan);
   void warn_of_odometry(const std::string& type);
+  void warn_of_slow_legs(const std::optional<double>& rate);
   void decide_legs(RecordingPlan& plan);
   bool is_imu_of_base() const;
   void decide_frames(RecordingPlan& plan);

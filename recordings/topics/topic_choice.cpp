@@ -11,6 +11,7 @@
 #include <set>
 
 #include "recordings/messages/inertial_topics.hpp"
+#include "recordings/messages/message_types.hpp"
 #include "recordings/messages/robot_states.hpp"
 #include "recordings/messages/words.hpp"
 #include "recordings/topics/recording_topics.hpp"
@@ -212,7 +213,12 @@ Result<std::string> legs(const Chooser& chooser, const std::string& configured) 
   // Joints give more than feet.
   topic = state_topic(chooser, "leg_odometry", has_joints);
   if (!topic) return topic;
-  return topic->empty() ? state_topic(chooser, "leg_odometry", has_feet) : std::string();
+  topic = topic->empty() ? state_topic(chooser, "leg_odometry", has_feet) : std::string();
+  const bool joints = std::ranges::any_of(chooser.connections(), [](const BagConnection& each) {
+    return is_joints(each) && each.messages > 0 && !each.is_part;
+  });
+  const auto* const found = topic ? chooser.find(*topic) : nullptr;
+  return joints && found != nullptr && found->type == kFootPlaces ? std::string() : topic;
 }
 
 /// Joints or contacts of a robot's state where no other topic has them.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <functional>
 #include <set>
 #include <string>
@@ -28,9 +29,11 @@ struct TrotOptions {
   std::set<int> dead = {};  ///< feet whose load is lost
   int lost = 0;             ///< of so many messages of the joints one
   std::string single = {};  ///< each leg has messages of its own: their topic, with {} for the leg
-  std::set<int> absent = {};  ///< legs that have no messages
-  int dies = 1000;            ///< message after which the rear right leg is silent
-  int batch = 1;              ///< so many messages are recorded at once, joints without a stamp
+  std::set<int> absent = {};         ///< legs that have no messages
+  int dies = 1000;                   ///< message after which the rear right leg is silent
+  bool on_change = false;            ///< loads are published only when a foot lands or lifts off
+  std::string single_contacts = {};  ///< each foot has messages of its own: their topic, as above
+  int batch = 1;  ///< so many messages are recorded at once, joints without a stamp
 };
 
 inline MessageBytes trot_joints(Time stamp, const Trot& trot, double time,
@@ -65,6 +68,13 @@ inline MessageBytes trot_joints(Time stamp, const Trot& trot, double time,
 class RecordedTrot : public RecordingTest {
  protected:
   Recording read(const TrotOptions& options, RecordingConfig config = {}) {
+    const auto file = write(options);
+    config.topics.lidar = "none";
+    if (options.forces) config.topics.contacts = "/foot_forces";
+    return read_recording(file, config);
+  }
+
+  std::filesystem::path write(const TrotOptions& options) {
     const auto file = folder_.path() / (std::to_string(count_++) + ".bag");
     RobotRecording robot(file);
     robot.add_transforms(kMounted);
@@ -83,7 +93,17 @@ class RecordedTrot : public RecordingTest {
       const double time = 0.01 * k + 0.003;
       recorded = now;
       robot.add_imu(now, 1);
-      if (options.forces) {
+      const bool changes = k == 0 || trot.contact(time) != trot.contact(time - 0.01);
+      if (!options.single_contacts.empty() && (changes || !options.on_change)) {
+        for (const int leg : {2, 0, 3, 1}) {
+          MessageBytes message;
+          message.put(static_cast<std::uint8_t>(trot.contact(time)[static_cast<std::size_t>(leg)]));
+          robot.add(topic_of(options.single_contacts, leg),
+                    {"std_msgs/Bool", "8b94c1b53db61fb6aed406028ad6332a", "bool data\n"}, now,
+                    message);
+        }
+      }
+      if (options.forces && (changes || !options.on_change)) {
         MessageBytes message;
         message.length(0);
         message.put(std::uint32_t{0});
@@ -116,9 +136,7 @@ class RecordedTrot : public RecordingTest {
       batch.clear();
     }
     robot.close();
-    config.topics.lidar = "none";
-    if (options.forces) config.topics.contacts = "/foot_forces";
-    return read_recording(file, config);
+    return file;
   }
 
   /// The topic of a leg.

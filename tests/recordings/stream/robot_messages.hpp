@@ -22,6 +22,7 @@ struct RobotSample {
   JointVector angles = JointVector::Zero();  ///< FL, FR, RL, RR [rad]
   JointVector rates = JointVector::Zero();   ///< [rad/s]
   std::array<bool, kLegCount> contact{};
+  bool has_foot_sensors = true;
   std::array<Eigen::Vector3d, kLegCount> feet{};         ///< in the base [m]
   std::array<Eigen::Vector3d, kLegCount> foot_speeds{};  ///< in the base [m/s]
 };
