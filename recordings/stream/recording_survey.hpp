@@ -108,6 +108,9 @@ class RecordingSurvey {
   double median_norm(Eigen::Vector3d ImuSample::*part) const;
   Eigen::Vector3d force_sum() const;
   bool changes(Eigen::Vector3d ImuSample::*part) const;
+  /// Replaces the nominal rate of a sensor by the measured one where they differ by more than 10 %.
+  void adopt_rate(std::optional<double> measured_hz, const char* sensor, double& nominal_hz);
+  void note_orientation();
   void warn_of_force(double force);
   void decide_force_unit(RecordingPlan& plan);
   std::optional<double> rate_of(Role role, const RecordingPlan& plan) const;

@@ -22,7 +22,7 @@ const std::string kLegged =
     used("unitree_legged_msgs/Cartesian", "float32 x\nfloat32 y\nfloat32 z");
 
 void put_imu(MessageBytes& out, const RobotSample& sample) {
-  for (const float each : {1.0F, 0.0F, 0.0F, 0.0F}) out.put(each);
+  for (const float each : sample.quaternion) out.put(each);
   put_vector<float>(out, {0.0, 0.0, sample.turn_rate});
   put_vector<float>(out, {0.0, 0.0, 9.81});
   fill<float>(out, 3);

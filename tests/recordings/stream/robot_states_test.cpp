@@ -149,6 +149,20 @@ TEST_F(RobotStates, WithoutSensorsInTheFeetTheTorquesOfTheKneesServe) {
   EXPECT_TRUE(read.noted("contacts begin/end at 'motorState[].tauEst'"));
 }
 
+TEST_F(RobotStates, AQuaternionThatBeginsWithXIsNoted) {
+  const auto noted = [&](const std::array<float, 4>& quaternion) {
+    RobotMessage message = test::go1_low_state();
+    message.encode = [encode = message.encode, quaternion](RobotSample sample) {
+      sample.quaternion = quaternion;
+      return encode(sample);
+    };
+    return walk(message, {}).noted("as where the quaternion begins with x in place of w");
+  };
+  const float c = std::cos(0.3F), s = std::sin(0.3F);  // yaw of 0.6 rad
+  EXPECT_TRUE(noted({0.0F, 0.0F, s, c}));
+  EXPECT_FALSE(noted({c, 0.0F, 0.0F, s}));
+}
+
 TEST_F(RobotStates, FeetOfAUnitreeStateWithoutJointsAreTheWalk) {
   const Trot trot = {.rate = 0.3};
   const Recording read = walk(test::feet_high_state(), trot);
