@@ -85,6 +85,10 @@ void AxisSigns::add_legs(const Eigen::Vector3d& velocity) {
   for (SignedForce& each : mirrored_) each.add_legs(velocity);
 }
 
+bool AxisSigns::mirrored_x_fits() const {
+  return mirrored_[0].residual().x() < measured_.residual().x();
+}
+
 std::optional<ReadingWarning> AxisSigns::warning() const {
   if (measured_.count() < kFewestChanges) return std::nullopt;
   for (std::size_t axis = 0; axis < mirrored_.size(); ++axis) {

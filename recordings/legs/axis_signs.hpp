@@ -54,6 +54,8 @@ class AxisSigns {
   void add_imu(const ImuSample& sample, const Eigen::Vector3d& place);
   void add_legs(const Eigen::Vector3d& velocity);
   std::optional<ReadingWarning> warning() const;
+  /// Whether the velocity along x changes more as the legs say with the other sign.
+  bool mirrored_x_fits() const;
 
  private:
   SignedForce measured_{{1.0, 1.0, 1.0}};

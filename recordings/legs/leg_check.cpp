@@ -322,7 +322,7 @@ void LegCheck::check_acceleration(std::vector<ReadingWarning>& found) const {
 
 /// Warns of legs that start and stop in the opposite direction.
 void LegCheck::check_direction(std::vector<ReadingWarning>& found) const {
-  if (against_ < kFewestStarts || 3 * along_ > against_) return;
+  if (against_ < kFewestStarts || 3 * along_ > against_ || !signs_.mirrored_x_fits()) return;
   found.push_back({"legs walk against the accelerometer",
                    fmt::format("in {} of {} starts and stops the velocity by the legs changes in "
                                "the opposite direction of what the accelerometer says: legs are "

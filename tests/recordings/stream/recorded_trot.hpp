@@ -19,6 +19,8 @@ namespace aims::test {
 /// A trot recorded as sensor_msgs/JointState with torques of the knees, and forces of the feet.
 struct TrotOptions {
   bool named = true;
+  bool numbered = false;  ///< the names are "leg0_joint0", ...
+  bool rates = true;
   double unit = 1.0;  ///< of the angles, in rad
   std::vector<int> legs = {0, 1, 2, 3};
   std::array<int, kLegCount> feet = {0, 1, 2, 3};
@@ -49,12 +51,14 @@ inline MessageBytes trot_joints(Time stamp, const Trot& trot, double time,
     constexpr std::array<const char*, kLegCount> kNames = {"FL", "FR", "RL", "RR"};
     constexpr std::array<const char*, 3> kParts = {"_hip", "_thigh", "_calf"};
     for (int part = 0; part < 3; ++part) {
-      if (options.named) {
+      if (options.numbered) {
+        names.push_back("leg" + std::to_string(names.size() / 3) + "_joint" + std::to_string(part));
+      } else if (options.named) {
         names.push_back(std::string(kNames[static_cast<std::size_t>(leg)]) +
                         kParts[static_cast<std::size_t>(part)]);
       }
       position.push_back(q[3 * leg + part] / options.unit);
-      velocity.push_back(dq[3 * leg + part] / options.unit);
+      if (options.rates) velocity.push_back(dq[3 * leg + part] / options.unit);
       const bool bears = part == 2 && trot.contact(time)[static_cast<std::size_t>(leg)];
       effort.push_back(bears ? -11.0 : 0.4);
     }
