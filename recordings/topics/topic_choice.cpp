@@ -269,6 +269,17 @@ void note_possible_truth(const Chooser& chooser, std::vector<std::string>& notes
   }
 }
 
+/// Places of feet are not read where joints are recorded, be these of other limbs.
+void note_unused_feet(const Chooser& chooser, std::vector<std::string>& notes) {
+  for (const BagConnection& each : chooser.connections()) {
+    if (each.type != kFootPlaces || each.messages == 0) continue;
+    notes.push_back(fmt::format(
+        "{} holds the places of the feet and is not read, since joints are recorded: to "
+        "read it, --topics leg_odometry={}",
+        each.topic, each.topic));
+  }
+}
+
 Choice choice_of(const Chooser& chooser, const TopicsConfig& configured,
                  std::vector<std::string>& notes) {
   const Request lidar = {"lidar", "sensor_msgs/PointCloud2 or a livox CustomMsg", is_cloud};
@@ -280,6 +291,9 @@ Choice choice_of(const Chooser& chooser, const TopicsConfig& configured,
   choice.keep(topics.lidar, required_topic(chooser, lidar, configured.lidar, kLidarTopic));
   choice.keep(topics.imu, imu_topic(chooser, configured.imu));
   choice.keep(topics.leg_odometry, legs(chooser, configured.leg_odometry));
+  if (topics.leg_odometry.empty() && configured.leg_odometry.empty()) {
+    note_unused_feet(chooser, notes);
+  }
   choice.keep(topics.joint_states, optional_topic(chooser, joints, configured.joint_states,
                                                   kJointStatesTopic, is_joints, notes));
   choice.keep(topics.contacts, optional_topic(chooser, contacts, configured.contacts,

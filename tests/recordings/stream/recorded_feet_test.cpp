@@ -25,6 +25,8 @@ class RecordedFeet : public test::RecordingTest {
                                                    "/rl_foot/contact", "/rr_foot/contact"};
     std::array<int, kLegCount> legs = {0, 1, 2, 3};  ///< of the topics, or of the entries
     std::string frame = "base";
+    bool with_arm = false;
+    std::string chosen = {};  ///< the topic of the legs
     Eigen::Vector3d shift = Eigen::Vector3d::Zero();
   };
 
@@ -60,6 +62,16 @@ class RecordedFeet : public test::RecordingTest {
               now, out);
   }
 
+  /// An arm, whose joints are none of the legs.
+  static void add_arm(RobotRecording& robot, Time now) {
+    MessageBytes out;
+    test::put_header(out, now, "base");
+    out.length(1);
+    out.text("arm_elbow");
+    for (int i = 0; i < 3; ++i) out.array(std::vector<double>{0.1});
+    robot.add("/joint_states", joint_state_type(), now, out);
+  }
+
   Recording read(const Feet& feet, bool arrays = false) {
     const auto file = folder_.path() / (std::to_string(count_++) + ".bag");
     RobotRecording robot(file);
@@ -67,6 +79,7 @@ class RecordedFeet : public test::RecordingTest {
     for (int k = 0; k < 400; ++k) {
       const Time now = test::kStart + k * 10 * kMillisecond;
       robot.add_imu(now, 1);
+      if (feet.with_arm) add_arm(robot, now);
       if (arrays) {
         add_arrays(robot, feet, now, 0.01 * k + 0.003);
       } else {
@@ -76,6 +89,7 @@ class RecordedFeet : public test::RecordingTest {
     robot.close();
     RecordingConfig config;
     config.topics.lidar = "none";
+    config.topics.leg_odometry = feet.chosen;
     return test::read_recording(file, config);
   }
 
@@ -127,6 +141,14 @@ TEST_F(RecordedFeet, InArraysOfAnyMessageAreFoundByTheirPlaces) {
       arrays.noted("/body_state/feet: joined from /body_state, whose messages hold all "
                    "feet (FR FL RR RL in their order, by their places)"));
   expect_contacts(arrays);
+}
+
+TEST_F(RecordedFeet, BesideJointsAreReadWhenChosen) {
+  Feet feet;
+  feet.with_arm = true;
+  EXPECT_TRUE(read(feet).noted("to read it, --topics leg_odometry=/foot/position/feet"));
+  feet.chosen = "/foot/position/feet";
+  expect_walk(read(feet));
 }
 
 TEST_F(RecordedFeet, OfTheWorldAreRefused) {
