@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <string_view>
 
+#include "recordings/legs/leg_names.hpp"
 #include "recordings/messages/message_values.hpp"
 
 namespace aims {
@@ -21,6 +23,10 @@ constexpr auto kArraysOfFeet =
 constexpr auto kFootLoadArrays = std::to_array<std::string_view>(
     {"contact", "contacts", "footcontact", "footcontacts", "contactstate", "contactstates",
      "footforce", "footforces", "incontact", "stance", "contactflags"});
+/// Of a field beside the name of a leg.
+constexpr auto kRestOfLoads = std::to_array<std::string_view>(
+    {"", "/contact", "/in_contact", "/is_contact", "/contact_state", "/state", "/stance", "/force",
+     "/load", "/foot", "/foot_contact", "/foot_force", "/contact_force"});
 /// Of an entry of an array of messages.
 constexpr auto kPlaceOfEntry =
     std::to_array<std::string_view>({"", "position", "point", "pose.position", "foot_position",
@@ -81,20 +87,39 @@ bool may_hold_feet(const BagConnection& connection, const MessageDecoder& decode
   });
 }
 
+std::optional<FeetPaths> loads_by_name(const MessageDecoder& decoder) {
+  std::map<std::string, std::array<std::string, kFeet>> found;  // by the name without the leg
+  for (const MessageField& field : decoder.fields()) {
+    const auto named = field.kind == FieldKind::kNumber ? named_leg(field.path) : std::nullopt;
+    if (!named || !named->leg || !is_one_of(named->rest, kRestOfLoads)) continue;
+    found[named->rest][static_cast<std::size_t>(*named->leg)] = field.path;
+  }
+  for (const auto& [rest, paths] : found) {
+    if (std::ranges::any_of(paths, &std::string::empty)) continue;
+    return FeetPaths{"", "", {paths.begin(), paths.end()}};
+  }
+  return std::nullopt;
+}
+
 std::optional<FeetPaths> feet_paths(const BagConnection& connection, const MessageDecoder& decoder,
                                     const MessageView& message) {
   for (const MessageField& field : decoder.fields()) {
     if (!may_be_places(connection, field)) continue;
     const std::string places = places_in(message, field);
-    if (!places.empty()) return FeetPaths{places, loads_beside(decoder, message, field)};
+    if (!places.empty()) return FeetPaths{places, loads_beside(decoder, message, field), {}};
   }
   return std::nullopt;
 }
 
 std::vector<LegPartSample> feet_in(const MessageView& message, const FeetPaths& paths, Time time) {
   const auto places = points_at(message, paths.places);
-  if (!places || places->size() != kFeet) return {};
+  if (!paths.places.empty() && (!places || places->size() != kFeet)) return {};
   std::vector<double> loads;
+  for (const std::string& path : paths.single_loads) {
+    const auto load = message.number(path);
+    if (!load) return {};
+    loads.push_back(*load);
+  }
   if (!paths.loads.empty()) {
     loads = numbers_at(message, paths.loads).value_or(std::vector<double>());
     if (loads.size() != kFeet) return {};
@@ -103,7 +128,7 @@ std::vector<LegPartSample> feet_in(const MessageView& message, const FeetPaths& 
   const Time stamp = recorded_stamp(message).value_or(0);
   for (std::size_t i = 0; i < kFeet; ++i) {
     feet[i].time = stamp > 0 ? stamp : time;
-    feet[i].place = (*places)[i];
+    if (!paths.places.empty()) feet[i].place = (*places)[i];
     if (!loads.empty()) feet[i].load = loads[i];
     feet[i].frame = message.text("header.frame_id").value_or("");
   }

@@ -13,8 +13,12 @@ namespace aims {
 
 /// Where a message holds four feet: paths of arrays of four places [m], and of four loads.
 struct FeetPaths {
-  std::string places, loads;  ///< no loads: empty
+  std::string places, loads;              ///< none: empty
+  std::vector<std::string> single_loads;  ///< in place of `loads`: a field for each leg, FL first
 };
+
+/// Loads in fields that are called by the legs alike, as "lf", "rf", "lh", "rh" or "FL_contact".
+std::optional<FeetPaths> loads_by_name(const MessageDecoder& decoder);
 
 /// Whether a type may hold four feet in arrays, by the names of its fields.
 bool may_hold_feet(const BagConnection& connection, const MessageDecoder& decoder);

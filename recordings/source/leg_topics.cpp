@@ -189,13 +189,35 @@ std::optional<LegTopics> topic_of_all_legs(MessageSource& source, const Candidat
   return found;
 }
 
+/// A topic whose messages hold the loads of all feet, each in a field that names its leg.
+LegTopics named_loads(const BagConnection& connection, FeetPaths paths) {
+  LegTopics found;
+  found.feet = std::move(paths);
+  for (std::size_t leg = 0; leg < kLegs; ++leg) {
+    LegPart part;
+    part.connection = connection.id;
+    part.name = part.recorded = kLegNames[leg];
+    part.leg = static_cast<int>(leg);
+    part.entry = leg;
+    found.parts.push_back(std::move(part));
+  }
+  found.topic = connection.topic;
+  found.loads = true;
+  found.text = fmt::format("{}, whose fields name the feet", found.topic);
+  return found;
+}
+
 /// A topic whose messages hold all feet in arrays.
 std::optional<LegTopics> topic_of_feet(MessageSource& source, const BagConnection& connection) {
   if (connection.messages == 0 || connection.type.starts_with("aims_msgs/")) return std::nullopt;
   if (robot_state_of(connection.type, connection.definition) != nullptr) return std::nullopt;
   const auto decoder =
       MessageDecoder::create(connection.type, connection.definition, connection.format);
-  if (!decoder || !may_hold_feet(connection, *decoder)) return std::nullopt;
+  if (!decoder) return std::nullopt;
+  if (may_be_of_legs(connection)) {
+    if (auto loads = loads_by_name(*decoder)) return named_loads(connection, std::move(*loads));
+  }
+  if (!may_hold_feet(connection, *decoder)) return std::nullopt;
   source.select(std::vector<std::string>{connection.topic});
   source.rewind();
   const auto message = source.next();
@@ -332,9 +354,12 @@ std::optional<std::size_t> part_index(const LegTopics& topics, const LegFields& 
 bool may_be_of_legs(const BagConnection& connection) {
   constexpr auto kWords = std::to_array<std::string_view>(
       {"joint", "contact", "foot", "feet", "force", "leg", "limb", "wrench", "motor", "touch"});
+  constexpr auto kStance = std::to_array<std::string_view>({"stance"}),
+                 kDistance = std::to_array<std::string_view>({"distance"});
   if (connection.type.starts_with("sensor_msgs/"))
     return connection.type == "sensor_msgs/JointState";
-  return holds_any(connection.topic, kWords) || holds_any(connection.type, kWords);
+  const std::string both = connection.topic + " " + connection.type;
+  return holds_any(both, kWords) || (holds_any(both, kStance) && !holds_any(both, kDistance));
 }
 
 std::vector<std::pair<std::size_t, LegPartSample>> samples_of(const LegTopics& topics,

@@ -45,6 +45,13 @@ TEST_F(RecordedTrot, ContactsOfSingleFeetOnChangeHoldUntilTheNext) {
   expect_same_legs(always, on_change);
 }
 
+TEST_F(RecordedTrot, ContactsInFieldsThatNameTheFeetAreRead) {
+  // As pronto_msgs/QuadrupedStance.
+  const Recording stance = read({.forces = false, .stance = true});
+  expect_same_legs(read({.load = 1.0F}), stance);
+  EXPECT_TRUE(stance.noted("/stance/contacts: joined from /stance, whose fields name the feet"));
+}
+
 TEST_F(RecordedTrot, AFootThatDiesIsNotHeld) {
   const Recording dead = read({.single = "/{}/joint_states", .dies = 100});
   EXPECT_FALSE(dead.noted(kHeld));

@@ -35,6 +35,7 @@ struct TrotOptions {
   int dies = 1000;                   ///< message after which the rear right leg is silent
   bool on_change = false;            ///< loads are published only when a foot lands or lifts off
   std::string single_contacts = {};  ///< each foot has messages of its own: their topic, as above
+  bool stance = false;               ///< contacts are fields that name the feet
   int batch = 1;  ///< so many messages are recorded at once, joints without a stamp
 };
 
@@ -97,6 +98,21 @@ class RecordedTrot : public RecordingTest {
       const double time = 0.01 * k + 0.003;
       recorded = now;
       robot.add_imu(now, 1);
+      if (options.stance) {
+        MessageBytes message;
+        message.put(std::uint32_t{0});
+        message.time(now);
+        message.text("base");
+        for (const std::size_t leg : {0, 2, 1, 3}) {
+          message.put(trot.contact(time)[leg] ? 1.0F : 0.0F);
+        }
+        robot.add("/stance",
+                  {"pronto_msgs/QuadrupedStance", "",
+                   "Header header\nfloat32 lf\nfloat32 lh\nfloat32 rf\nfloat32 rh\n" +
+                       std::string(80, '=') +
+                       "\nMSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n"},
+                  now, message);
+      }
       const bool changes = k == 0 || trot.contact(time) != trot.contact(time - 0.01);
       if (!options.single_contacts.empty() && (changes || !options.on_change)) {
         for (const int leg : {2, 0, 3, 1}) {
