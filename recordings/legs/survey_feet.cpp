@@ -35,7 +35,10 @@ std::string LegSurvey::lack_of_feet(const std::string& frame) const {
         "base",
         frame);
   }
-  return contact_messages_ > 0 ? "" : "no contacts of the feet";
+  if (contact_messages_ > 0) return {};
+  if (topics_.contacts.empty()) return "no contacts of the feet";
+  return fmt::format("{} holds no contacts of four feet: expected a number for each foot",
+                     topics_.contacts);
 }
 
 /// Warns of feet that do not lie where the legs are, and of contacts whose feet are not named.

@@ -26,7 +26,8 @@ class RecordedFeet : public test::RecordingTest {
     std::array<int, kLegCount> legs = {0, 1, 2, 3};  ///< of the topics, or of the entries
     std::string frame = "base";
     bool with_arm = false;
-    std::string chosen = {};  ///< the topic of the legs
+    std::string chosen = {};           ///< the topic of the legs
+    std::string chosen_contacts = {};  ///< likewise
     Eigen::Vector3d shift = Eigen::Vector3d::Zero();
   };
 
@@ -90,6 +91,7 @@ class RecordedFeet : public test::RecordingTest {
     RecordingConfig config;
     config.topics.lidar = "none";
     config.topics.leg_odometry = feet.chosen;
+    config.topics.contacts = feet.chosen_contacts;
     return test::read_recording(file, config);
   }
 
@@ -149,6 +151,15 @@ TEST_F(RecordedFeet, BesideJointsAreReadWhenChosen) {
   EXPECT_TRUE(read(feet).noted("to read it, --topics leg_odometry=/foot/position/feet"));
   feet.chosen = "/foot/position/feet";
   expect_walk(read(feet));
+}
+
+TEST_F(RecordedFeet, WithoutContactsOfFourFeetAreRefusedByTheTopic) {
+  Feet feet;
+  feet.chosen_contacts = "/imu";
+  const Recording none = read(feet);
+  EXPECT_FALSE(none.setup.has_legs);
+  EXPECT_EQ(none.setup.leg_lack,
+            "/imu holds no contacts of four feet: expected a number for each foot");
 }
 
 TEST_F(RecordedFeet, OfTheWorldAreRefused) {
