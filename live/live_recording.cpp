@@ -12,7 +12,7 @@
 
 #include "core/stopwatch.hpp"
 #include "recordings/messages/message_values.hpp"
-#include "recordings/stream/decided_start.hpp"
+#include "recordings/source/decided_start.hpp"
 #include "recordings/topics/recording_topics.hpp"
 
 namespace aims {
@@ -134,7 +134,7 @@ class Gathering {
     }
     auto source = std::make_unique<LiveSource>(messages_, following());
     LiveSource& live = *source;
-    auto reader = RecordingReader::open(std::move(source), options_.config);
+    auto reader = open_live(std::move(source), options_.config);
     if (!reader) return reader;
     if (auto ok = options_.check_setup(reader->setup()); !ok) return tl::unexpected(ok.error());
     // A record has each topic to its end: the truth too, which the estimate does not read. The next

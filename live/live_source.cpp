@@ -6,7 +6,9 @@
 
 #include "recordings/messages/message_encoding.hpp"
 #include "recordings/messages/message_types.hpp"
-#include "recordings/stream/decided_start.hpp"
+#include "recordings/source/decided_start.hpp"
+#include "recordings/source/joined_legs.hpp"
+#include "recordings/source/split_imu.hpp"
 
 namespace aims {
 
@@ -115,6 +117,14 @@ void LiveSource::rewind() {
   if (live_) return;
   position_ = 0;
   last_ = summary_.start;
+}
+
+Result<RecordingReader> open_live(std::unique_ptr<LiveSource> source,
+                                  const RecordingConfig& config) {
+  std::unique_ptr<MessageSource> joined = std::move(source);
+  join_split_imu(joined);
+  join_single_legs(joined);
+  return RecordingReader::open(std::move(joined), config);
 }
 
 }  // namespace aims

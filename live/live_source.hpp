@@ -14,6 +14,7 @@
 #include "live/inbox.hpp"
 #include "recordings/bag/message_source.hpp"
 #include "recordings/source/message_stamps.hpp"
+#include "recordings/stream/recording_reader.hpp"
 
 namespace aims {
 
@@ -71,5 +72,10 @@ class LiveSource final : public MessageSource {
   LiveMessage current_;                  ///< the last message that was waited for
   Time last_ = 0;                        ///< record time of the last message read
 };
+
+/// Opens the topics as those of a recording are: the halves of an IMU, and legs in messages of
+/// their own, are joined. `source` lives as long as the reader.
+Result<RecordingReader> open_live(std::unique_ptr<LiveSource> source,
+                                  const RecordingConfig& config);
 
 }  // namespace aims

@@ -33,6 +33,11 @@ constexpr int kFewestStances = 100;                           ///< samples
 constexpr double kLeastDepth = 0.35;  ///< of a foot in contact below its hip, of the leg's length
 constexpr double kStraight = 0.95;    ///< no robot walks on straight knees
 constexpr double kMostApart = 0.5;    ///< in front of or behind its hip
+// Of a foot in contact against the base, at most 0.06 on a real robot; of an error of 0.3 rad of a
+// thigh 0.24 to 0.36.
+constexpr double kMostSlope = 0.2;
+constexpr int kFewestSlopes = 12;   ///< windows
+constexpr double kMostSide = 0.12;  ///< left feet below right ones, of the leg's length; likewise
 
 bool is_scale(double scale) { return scale > kLeastScale && scale < kMostScale; }
 
@@ -58,6 +63,7 @@ double SignalAgreement::scale() const {
 }
 
 void LegCheck::add_imu(const ImuSample& sample, const Eigen::Vector3d& place) {
+  signs_.add_imu(sample, place);
   const double force = sample.specific_force.norm();
   if (!std::isfinite(force) || !(force > 0.1) || !sample.angular_velocity.allFinite()) return;
   const Eigen::Vector3d up = sample.specific_force / force;
@@ -85,9 +91,11 @@ void LegCheck::add_imu(const ImuSample& sample, const Eigen::Vector3d& place) {
 
 void LegCheck::add_feet(const std::vector<StandingFoot>& feet, const Eigen::Vector3d& velocity) {
   if (!last_ || feet.empty() || !velocity.allFinite()) return;
+  signs_.add_legs(velocity);
   ++window_.legs;
   window_.by_legs += R_world_base_ * (velocity + turning_.cross(place_));
   window_.speed += velocity.norm();
+  window_.forward += velocity.x();
   const Eigen::Vector3d up = R_world_base_.conjugate() * Eigen::Vector3d::UnitZ();
   for (const StandingFoot& foot : feet) {
     const Eigen::Vector3d from_hip = foot.position - hip_in_base(foot.leg, geometry_);
@@ -95,6 +103,8 @@ void LegCheck::add_feet(const std::vector<StandingFoot>& feet, const Eigen::Vect
     ++stance.samples;
     stance.depth -= up.dot(from_hip);
     stance.apart += from_hip.x();
+    stance.below -= from_hip.z();
+    stance.rise -= (foot.velocity + turning_.cross(foot.position)).z();
   }
   for (std::size_t i = 1; i < feet.size(); ++i) {
     // The velocities of feet that stand differ by the turning of the base alone.
@@ -115,10 +125,22 @@ void LegCheck::close() {
       stances_[leg].samples += window_.stances[leg].samples;
       stances_[leg].depth += window_.stances[leg].depth;
       stances_[leg].apart += window_.stances[leg].apart;
+      stances_[leg].below += window_.stances[leg].below;
     }
+    compare_slopes();
   }
   window_ = {};
   begin_ = *last_;
+}
+
+void LegCheck::compare_slopes() {
+  constexpr int kFewestOfStance = 4;  // samples
+  const double forward = window_.forward / window_.legs;
+  if (std::abs(forward) < kWalking) return;
+  for (std::size_t leg = 0; leg < slopes_.size(); ++leg) {
+    const Stance& stance = window_.stances[leg];
+    if (stance.samples >= kFewestOfStance) slopes_[leg].add(stance.rise / stance.samples, forward);
+  }
 }
 
 void LegCheck::compare_turning() {
@@ -193,6 +215,44 @@ void LegCheck::check_stances(std::vector<ReadingWarning>& found) const {
                    WarnedSensor::kLegs});
 }
 
+/// Warns of feet that move against the base on a slope.
+void LegCheck::check_slopes(std::vector<ReadingWarning>& found) const {
+  if (!(geometry_.thigh + geometry_.calf > 0.0)) return;
+  std::vector<std::string> odd;
+  for (std::size_t leg = 0; leg < slopes_.size(); ++leg) {
+    const double slope = slopes_[leg].scale();
+    if (slopes_[leg].count() < kFewestSlopes || std::abs(slope) < kMostSlope) continue;
+    odd.push_back(fmt::format("{} {:.2f}", kLegNames[leg], slope));
+  }
+  if (odd.empty()) return;
+  found.push_back(
+      {"joint angles do not fit a walking robot",
+       fmt::format("by the joint angles feet in contact move on a slope against the "
+                   "base, {} m up for each m ahead: the zero of the hip is off by "
+                   "about as many rad, or of the knee by twice as many (or feet count as "
+                   "standing while they lift off, or the robot climbs stairs with a "
+                   "level trunk)",
+                   fmt::join(odd, ", ")),
+       WarnedSensor::kLegs});
+}
+
+/// Warns of a base that leans over to one side by its legs.
+void LegCheck::check_sides(std::vector<ReadingWarning>& found) const {
+  const double length = geometry_.thigh + geometry_.calf;
+  std::array<double, 2> below{};  // left, right
+  for (std::size_t leg = 0; leg < stances_.size(); ++leg) {
+    if (stances_[leg].samples < kFewestStances) return;
+    below[leg % 2] += 0.5 * stances_[leg].below / stances_[leg].samples;
+  }
+  if (!(length > 0.0) || std::abs(below[0] - below[1]) < kMostSide * length) return;
+  found.push_back({"joint angles do not fit a walking robot",
+                   fmt::format("by the joint angles the feet in contact are, in the mean, {:.2f} m "
+                               "(left) and {:.2f} m (right) below the hips: the zero or a sign of "
+                               "the abductions is another one",
+                               below[0], below[1]),
+                   WarnedSensor::kLegs});
+}
+
 /// Warns of feet that turn against the base otherwise than the gyro says.
 void LegCheck::check_turning(std::vector<ReadingWarning>& found) const {
   const SignalAgreement &x = turns_[0], &y = turns_[1];
@@ -262,7 +322,7 @@ void LegCheck::check_acceleration(std::vector<ReadingWarning>& found) const {
 
 /// Warns of legs that start and stop in the opposite direction.
 void LegCheck::check_direction(std::vector<ReadingWarning>& found) const {
-  if (against_ < kFewestStarts || 3 * along_ > against_) return;
+  if (against_ < kFewestStarts || 3 * along_ > against_ || !signs_.mirrored_x_fits()) return;
   found.push_back({"legs walk against the accelerometer",
                    fmt::format("in {} of {} starts and stops the velocity by the legs changes in "
                                "the opposite direction of what the accelerometer says: legs are "
@@ -275,9 +335,15 @@ void LegCheck::check_direction(std::vector<ReadingWarning>& found) const {
 std::vector<ReadingWarning> LegCheck::warnings() const {
   std::vector<ReadingWarning> found;
   check_stances(found);
+  if (found.empty()) check_slopes(found);
+  if (found.empty()) check_sides(found);
   check_turning(found);
+  const std::size_t before = found.size();
   check_acceleration(found);
   if (found.empty()) check_direction(found);
+  if (auto sign = signs_.warning(); sign && found.size() == before) {
+    found.push_back(std::move(*sign));
+  }
   return found;
 }
 

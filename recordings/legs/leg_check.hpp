@@ -10,6 +10,7 @@
 
 #include "core/leg_kinematics.hpp"
 #include "core/measurements.hpp"
+#include "recordings/legs/axis_signs.hpp"
 #include "recordings/reading_notes.hpp"
 
 namespace aims {
@@ -59,6 +60,8 @@ class LegCheck {
     int samples = 0;
     double depth = 0.0;  ///< below the hip [m]
     double apart = 0.0;  ///< in front of it [m]
+    double below = 0.0;  ///< it, along z of the base [m]
+    double rise = 0.0;   ///< velocity of the base along its z, by this foot [m/s]
   };
   /// Sums over half a second.
   struct Window {
@@ -66,6 +69,7 @@ class LegCheck {
     Eigen::Vector3d by_force = Eigen::Vector3d::Zero();  ///< velocity of the IMU, world axes
     Eigen::Vector3d by_legs = Eigen::Vector3d::Zero();   ///< likewise
     double speed = 0.0;                                  ///< by the legs, without direction
+    double forward = 0.0;                                ///< by the legs, along x of the base
     double gyro = 0.0;                                   ///< turn rate about z
     /// Turn rate about z by what pairs of feet do along x and y, weighted, and the weights.
     Eigen::Vector2d by_feet = Eigen::Vector2d::Zero(), weight = Eigen::Vector2d::Zero();
@@ -79,12 +83,16 @@ class LegCheck {
   void compare_turning();
   void compare_velocities();
   void compare_direction(const std::optional<Velocities>& now);
+  void compare_slopes();
   void check_stances(std::vector<ReadingWarning>& found) const;
+  void check_slopes(std::vector<ReadingWarning>& found) const;
+  void check_sides(std::vector<ReadingWarning>& found) const;
   void check_turning(std::vector<ReadingWarning>& found) const;
   void check_acceleration(std::vector<ReadingWarning>& found) const;
   void check_direction(std::vector<ReadingWarning>& found) const;
 
   LegGeometry geometry_;
+  AxisSigns signs_;
   std::optional<Time> last_;  ///< stamp of the IMU
   Time begin_ = 0;            ///< of the window
   Eigen::Quaterniond R_world_base_ = Eigen::Quaterniond::Identity();
@@ -100,6 +108,7 @@ class LegCheck {
   std::array<SignalAgreement, 2>
       changes_;                            ///< of velocity by legs and accelerometer, along x and y
   std::array<Stance, kLegCount> stances_;  ///< while the robot walks
+  std::array<SignalAgreement, kLegCount> slopes_;  ///< of the velocity by a foot, along z over x
 };
 
 }  // namespace aims

@@ -133,6 +133,7 @@ std::optional<UnnamedJoints> unnamed_joints_at(const MessageView& message, const
 }
 
 bool feet_are_named(const MessageView& message, const ContactRule& rule) {
+  if (rule.knees != nullptr) return true;
   if (rule.state != nullptr && rule.state->foot_names.empty()) return true;
   const auto numbers = numbers_at(message, rule.field);
   return numbers &&
@@ -145,10 +146,18 @@ std::optional<FootLoads> loads_at(const MessageView& message, const ContactRule&
   if (rule.state != nullptr && rule.state->biped != nullptr) {
     return knee_torques(*numbers, *rule.state->biped);
   }
+  FootLoads loads{};
+  if (rule.knees != nullptr) {
+    if (numbers->size() < std::size_t{kJointCount}) return std::nullopt;
+    const JointOrder joints = order_of_legs(rule.knees->legs);
+    for (std::size_t leg = 0; leg < loads.size(); ++leg) {
+      loads[leg] = (*numbers)[joints[3 * leg + 2]];
+    }
+    return loads;
+  }
   const auto order = foot_order(foot_names_at(message, rule), rule.foot_names, numbers->size());
   if (!order) return std::nullopt;
   const bool states = rule.state != nullptr && rule.state->contact_kind == ContactKind::kState;
-  FootLoads loads{};
   for (std::size_t i = 0; i < order->size(); ++i) {
     if ((*order)[i] < 0) continue;
     const double number = (*numbers)[i];

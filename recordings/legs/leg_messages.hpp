@@ -44,6 +44,7 @@ struct ContactRule {
   std::array<ContactThreshold, kLegCount> thresholds;
   std::vector<std::string> foot_names;
   const StateLayout* state = nullptr;  ///< of the message's type, if `field` is its contacts
+  const StateLayout* knees = nullptr;  ///< likewise, if `field` has a number for each of its joints
 };
 
 /// How joints are read.

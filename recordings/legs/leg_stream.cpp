@@ -247,9 +247,11 @@ std::array<bool, kLegCount> LegStream::usable_contacts(const JointReading& joint
 
 /// Whether gyro and contacts are known; otherwise what is missing is counted.
 bool LegStream::has_contacts(const std::optional<ImuSample>& imu, const ContactReading* contacts,
-                             Time stamp, EventCounts& counts) {
+                             Time stamp, EventCounts& counts) const {
   if (!imu || contacts == nullptr) return ++counts["legs_incomplete"], false;
-  if (stamp - contacts->stamp > kMaxContactAge) return ++counts["legs_without_contacts"], false;
+  if (!config_.contacts_on_change && stamp - contacts->stamp > kMaxContactAge) {
+    return ++counts["legs_without_contacts"], false;
+  }
   return true;
 }
 
@@ -316,6 +318,9 @@ std::optional<LegOdometrySample> LegStream::add_feet(FeetReading reading, EventC
   LegOdometrySample sample;
   sample.stamp = reading.stamp;
   sample.contact = contacts_->contact;
+  for (std::size_t leg = 0; leg < sample.contact.size(); ++leg) {
+    sample.contact[leg] = sample.contact[leg] && reading.position[leg].allFinite();
+  }
   if (!difference_feet(reading, sample.contact, counts))
     return ++counts["legs_incomplete"], std::nullopt;
   sample.angular_velocity = config_.T_body_base.rotation.conjugate() * imu_->angular_velocity;

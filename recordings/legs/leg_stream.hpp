@@ -36,6 +36,7 @@ struct LegStreamConfig {
   Duration half_period = 0;  ///< messages no farther apart than this belong to one instant
   /// Joints wait so long for contacts of their instant that arrive later, by their own stamps.
   Duration contact_wait = 0;
+  bool contacts_on_change = false;  ///< contacts hold until the next ones, however long
   Pose T_body_base;
   LegGeometry geometry;
   FootModel foot_model = FootModel::kPoint;
@@ -86,8 +87,8 @@ class LegStream {
   std::optional<LegOdometrySample> finish(LegOdometrySample sample, const Eigen::Vector3d& sum,
                                           int feet, EventCounts& counts);
   void check_imu(const ImuSample& sample);
-  static bool has_contacts(const std::optional<ImuSample>& imu, const ContactReading* contacts,
-                           Time stamp, EventCounts& counts);
+  bool has_contacts(const std::optional<ImuSample>& imu, const ContactReading* contacts, Time stamp,
+                    EventCounts& counts) const;
   std::optional<Eigen::Vector3d> up_in_base() const;
 
   LegStreamConfig config_;

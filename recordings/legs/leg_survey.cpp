@@ -6,17 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-
-#include "recordings/messages/message_types.hpp"
 
 namespace aims {
 namespace {
 
 constexpr std::size_t kMaxListed = 200;  ///< of names in messages [bytes]
 constexpr double kLargeAngle = 6.5;      ///< of no joint of a leg [rad]
-/// Feet that may be without a threshold of contact: three others carry the estimate.
-constexpr std::size_t kMostUnknownFeet = 1;
 
 }  // namespace
 
@@ -102,43 +97,6 @@ std::string LegSurvey::lack_of_contacts() const {
       topics_.joint_states, found, torques);
 }
 
-void LegSurvey::choose_contact_field(const std::string& type, const MessageDecoder& decoder,
-                                     const StateLayout* state) {
-  contact_field_ = config_.contacts_field;
-  if (state != nullptr && (contact_field_.empty() || contact_field_ == state->contacts)) {
-    contact_field_ = state->contacts;
-    contact_state_ = state;
-    contacts_are_flags_ = state->contact_kind == ContactKind::kState;
-    contacts_are_raw_ = !contacts_are_flags_;
-    if (!state->foot_names.empty() || !config_.foot_names.empty()) return;
-    for (const int leg : state->legs) {
-      config_.foot_names.emplace_back(kLegNames[static_cast<std::size_t>(leg)]);
-    }
-    return;
-  }
-  const bool joints = type == "sensor_msgs/JointState";
-  contacts_are_raw_ = type == kFootForces || joints;
-  if (contact_field_.empty() && joints) contact_field_ = "effort";
-  for (const MessageField& field : decoder.fields()) {
-    if (field.kind != FieldKind::kNumbers) continue;
-    if (contact_field_.empty()) contact_field_ = field.path;
-    if (field.path == contact_field_) contacts_are_flags_ = field.is_bool;
-  }
-}
-
-void LegSurvey::add_contacts(const MessageView& message, const std::string& type,
-                             const MessageDecoder& decoder, const StateLayout* state) {
-  if (contact_field_.empty()) choose_contact_field(type, decoder, state);
-  const auto loads = loads_at(message, rule_of(0.0));
-  if (!loads) return;
-  ++contact_messages_;
-  first_loads_.push_back(*loads);
-  feet_unnamed_ = feet_unnamed_ || !feet_are_named(message, rule_of(0.0));
-  for (const double load : *loads) {
-    if (std::isfinite(load)) largest_load_ = std::max(largest_load_, std::abs(load));
-  }
-}
-
 void LegSurvey::add_joint_motion(const MessageView& message, Time record_time) {
   const Time stamp = header_stamp(message, record_time);
   const Time time = stamp == 0 ? record_time : stamp;
@@ -198,158 +156,6 @@ void LegSurvey::decide_order(const Eigen::Quaterniond& R_body_base, ReadingNotes
   }
 }
 
-void LegSurvey::add_feet(const MessageView& message, const StateLayout& state) {
-  feet_state_ = &state;
-  const auto feet = feet_at(message, 0, state);
-  if (!feet) return;
-  has_feet_ = true;
-  for (const Eigen::Vector3d& foot : feet->position) {
-    if (foot.allFinite()) farthest_foot_ = std::max(farthest_foot_, foot.norm());
-  }
-}
-
-bool LegSurvey::learns_contacts() const {
-  if (contact_messages_ == 0 || contacts_are_flags_) return false;
-  if (config_.contact_detection == ContactDetection::kAuto) return contacts_are_raw_;
-  return config_.contact_detection == ContactDetection::kLearned;
-}
-
-void LegSurvey::add_loads(const MessageView& message) {
-  if (const auto loads = loads_at(message, rule_of(0.0))) loads_.push_back(*loads);
-}
-
-ContactRule LegSurvey::rule_of(double threshold) const {
-  ContactRule rule = {contact_field_, {}, config_.foot_names, contact_state_};
-  rule.thresholds.fill({threshold, threshold});
-  return rule;
-}
-
-Result<ContactRule> LegSurvey::learned_rule(ReadingNotes& notes) const {
-  ContactRule rule = rule_of(std::numeric_limits<double>::infinity());
-  std::vector<std::string> unknown;
-  std::string list;
-  for (std::size_t leg = 0; leg < rule.thresholds.size(); ++leg) {
-    const auto learned = learn_contact_threshold(loads_, leg);
-    list += list.empty() ? "" : ", ";
-    list += learned ? fmt::format("{:.1f}/{:.1f}", learned->begin, learned->end) : "-";
-    if (learned) rule.thresholds[leg] = *learned;
-    if (!learned) unknown.push_back(learned.error().message);
-  }
-  const std::string where = fmt::format(
-      "topic '{}', field '{}': no threshold of contact can be "
-      "learned: {}",
-      topics_.contacts, contact_field_, fmt::join(unknown, "; "));
-  if (unknown.size() > kMostUnknownFeet) {
-    return failure(where + "; set contact_detection: threshold with contact_threshold");
-  }
-  if (!unknown.empty()) {
-    notes.warn("contacts of a foot not learned", where + "; no contact of this foot is used");
-  }
-  notes.push_back(
-      fmt::format("{}: contacts begin/end at '{}' of {} (FL, FR, RL, RR), learned from "
-                  "{} messages (contact_detection)",
-                  topics_.contacts, contact_field_, list, loads_.size()));
-  return rule;
-}
-
-ContactRule LegSurvey::without_contacts(const std::string& reason, ReadingNotes& notes) {
-  lack_ = reason;
-  contact_messages_ = 0;
-  notes.warn("contacts of the feet not learned", reason + ": no contacts are used");
-  return rule_of(std::numeric_limits<double>::infinity());
-}
-
-/// Whether the loads are torques of the knees, of either sign.
-bool LegSurvey::loads_are_torques() const {
-  const auto named = [this](std::string_view part) {
-    return contact_field_.find(part) != std::string::npos;
-  };
-  const bool of_state =
-      contact_state_ != nullptr && contact_state_->contact_kind == ContactKind::kTorque;
-  return of_state || named("effort") || named("torque") || named("tau");
-}
-
-/// Of loads whose sign tells something; else all are as they should be.
-std::array<LoadRange, kLegCount> LegSurvey::ranges_of_loads() const {
-  constexpr double kCounts = 1.0, kParts = 0.1;  // negligible, of counts and of fractions
-  if (contacts_are_flags_ || loads_are_torques()) return {};
-  if (!loads_.empty()) return load_ranges(loads_, kCounts);
-  return load_ranges(first_loads_, largest_load_ <= 1.0 ? kParts : config_.contact_threshold);
-}
-
-/// Of the feet whose loads tell no contact; empty without.
-std::string LegSurvey::offset_text(const std::array<LoadRange, kLegCount>& ranges) const {
-  const std::string feet = feet_text(ranges, LoadSign::kUnclear);
-  if (feet.empty()) return {};
-  return fmt::format(
-      "{}: the loads of {} are negative, but not between zero and negative as of a reversed sign: "
-      "the sensor has an offset; take it off in the driver",
-      topics_.contacts, feet);
-}
-
-/// The rule with the sign that the loads have, without the feet whose loads tell no contact.
-Result<ContactRule> LegSurvey::with_signs(ContactRule rule, ReadingNotes& notes) const {
-  const auto ranges = ranges_of_loads();
-  const std::string reversed = feet_text(ranges, LoadSign::kNegative);
-  const std::string offset = offset_text(ranges);
-  if (!reversed.empty()) {
-    notes.warn("loads of the feet are negative",
-               fmt::format("{}: the loads of {} are negative: taken as of the reversed sign",
-                           topics_.contacts, reversed));
-  }
-  const auto is_unclear = [](const LoadRange& each) { return each.sign == LoadSign::kUnclear; };
-  if (std::ranges::all_of(ranges, is_unclear)) return failure(offset);
-  if (!offset.empty()) {
-    notes.warn("loads of the feet have an offset", offset + "; no contact of these feet is used");
-  }
-  const bool by_threshold = loads_.empty() && !contacts_are_flags_ && !loads_are_torques();
-  for (std::size_t leg = 0; leg < ranges.size(); ++leg) {
-    ContactThreshold& threshold = rule.thresholds[leg];
-    if (by_threshold) threshold.sign = ranges[leg].sign == LoadSign::kNegative ? -1 : 1;
-    if (is_unclear(ranges[leg])) {
-      threshold.begin = threshold.end = std::numeric_limits<double>::infinity();
-    }
-  }
-  return rule;
-}
-
-Result<ContactRule> LegSurvey::decide_contacts(ReadingNotes& notes) const {
-  auto rule = rule_of_loads(notes);
-  if (topics_.contacts.empty() || contact_messages_ == 0) return rule;
-  const std::string offset = rule ? "" : offset_text(ranges_of_loads());
-  if (!offset.empty()) return failure(offset);
-  if (!rule) return rule;
-  return with_signs(std::move(*rule), notes);
-}
-
-Result<ContactRule> LegSurvey::rule_of_loads(ReadingNotes& notes) const {
-  ContactRule rule = rule_of(config_.contact_threshold);
-  if (topics_.contacts.empty()) return rule;
-  if (contact_messages_ == 0) {
-    notes.push_back(fmt::format(
-        "{}: field '{}' does not name four feet: no contacts (contacts_field, foot_names)",
-        topics_.contacts, contact_field_));
-    return rule;
-  }
-  if (learns_contacts()) {
-    auto learned = learned_rule(notes);
-    const bool asked = config_.contact_detection == ContactDetection::kLearned;
-    if (learned || asked || contact_field_ != "effort") return learned;
-    notes.warn("threshold of contact assumed",
-               fmt::format("{}: contact from {} of the knee's torque on: no other threshold can be "
-                           "learned (contact_threshold)",
-                           topics_.contacts, config_.contact_threshold));
-  }
-  const bool asked = config_.contact_detection == ContactDetection::kThreshold;
-  if (!contacts_are_flags_ && (asked || largest_load_ > 1.0)) return rule;
-  rule = rule_of(0.5);
-  if (!contacts_are_flags_) {
-    notes.push_back(fmt::format("{}: '{}' is at most 1 at the start: a flag, threshold 0.5",
-                                topics_.contacts, contact_field_));
-  }
-  return rule;
-}
-
 void LegSurvey::note_twist(const std::string& type, const std::string& frame,
                            ReadingNotes& notes) const {
   notes.push_back(fmt::format("{}: a twist without a pose, which is integrated", type));
@@ -362,25 +168,6 @@ void LegSurvey::note_twist(const std::string& type, const std::string& frame,
   if (type == "geometry_msgs/Twist") {
     notes.push_back("geometry_msgs/Twist has no stamp: record times are used");
   }
-}
-
-LegSource LegSurvey::decide_feet(ReadingNotes& notes) {
-  if (farthest_foot_ > 0.0 && contact_messages_ > 0) {
-    notes.push_back(feet_state_->biped == nullptr
-                        ? "leg odometry: from feet, contacts and gyro"
-                        : fmt::format("leg odometry: from the joints of {}, the torques of its "
-                                      "knees and the gyro",
-                                      feet_state_->robot));
-    return LegSource::kFeet;
-  }
-  const std::string_view field =
-      feet_state_->feet.empty() ? feet_state_->angles : feet_state_->feet;
-  const std::string lack = farthest_foot_ > 0.0 ? "no contacts of the feet"
-                           : has_feet_          ? fmt::format("{} is zero", field)
-                                                : fmt::format("'{}' does not hold all feet", field);
-  notes.push_back(fmt::format("{}: {}: estimators run without legs", topics_.leg_odometry, lack));
-  if (lack_.empty()) lack_ = lack;
-  return LegSource::kNone;
 }
 
 LegSource LegSurvey::decide_source(const std::string& type, const std::string& frame,
@@ -400,7 +187,7 @@ LegSource LegSurvey::decide_source(const std::string& type, const std::string& f
   }
   if (!topics_.leg_odometry.empty()) {
     if (type == "nav_msgs/Odometry") return LegSource::kOdometry;
-    if (feet_state_ != nullptr) return decide_feet(notes);
+    if (feet_state_ != nullptr) return decide_feet(frame, notes);
     note_twist(type, frame, notes);
     return LegSource::kTwist;
   }

@@ -63,6 +63,9 @@ class LegSurvey {
   /// which no thresholds can be learned.
   Result<ContactRule> decide_contacts(ReadingNotes& notes) const;
 
+  /// Whether contacts are published only when they change: then the last ones hold, with a warning.
+  bool contacts_hold(ReadingNotes& notes) const;
+
   /// Goes on without the contacts, which cannot be used for that reason.
   ContactRule without_contacts(const std::string& reason, ReadingNotes& notes);
 
@@ -78,6 +81,7 @@ class LegSurvey {
   void warn_of_degrees(ReadingNotes& notes) const;
   std::string lack_of_joints() const;
   std::string lack_of_contacts() const;
+  std::string advice_on_contacts() const;
   ContactRule rule_of(double threshold) const;
   Result<ContactRule> learned_rule(ReadingNotes& notes) const;
   bool loads_are_torques() const;
@@ -87,7 +91,9 @@ class LegSurvey {
   Result<ContactRule> with_signs(ContactRule rule, ReadingNotes& notes) const;
   void choose_contact_field(const std::string& type, const MessageDecoder& decoder,
                             const StateLayout* state);
-  LegSource decide_feet(ReadingNotes& notes);
+  LegSource decide_feet(const std::string& frame, ReadingNotes& notes);
+  std::string lack_of_feet(const std::string& frame) const;
+  void warn_of_feet(ReadingNotes& notes) const;
   void note_twist(const std::string& type, const std::string& frame, ReadingNotes& notes) const;
 
   RecordingConfig config_;
@@ -105,14 +111,21 @@ class LegSurvey {
   std::string lack_;
   int effort_messages_ = 0;
   int contact_messages_ = 0;
+  int repeated_contacts_ = 0;  ///< messages whose contacts are those of the one before
+  int foot_messages_ = 0;      ///< of feet without joints
   std::string contact_field_;
   bool contacts_are_flags_ = false;
   bool contacts_are_raw_ = false;               ///< counts without calibration, or torques
   const StateLayout* contact_state_ = nullptr;  ///< if its contacts are read
+  const StateLayout* contact_knees_ = nullptr;  ///< if numbers of its joints are
+  std::string torque_field_;                    ///< of a robot's state with contacts; empty: none
   const StateLayout* feet_state_ = nullptr;     ///< of the feet without joints
   double largest_load_ = 0.0;
   bool has_feet_ = false;
-  double farthest_foot_ = 0.0;          ///< of the feet without joints [m]
+  double farthest_foot_ = 0.0;  ///< of the feet without joints [m]
+  std::array<Eigen::Vector3d, kLegCount> sum_of_feet_ = {
+      Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+      Eigen::Vector3d::Zero()};         ///< of their places
   std::vector<FootLoads> first_loads_;  ///< of the survey
   std::vector<FootLoads> loads_;        ///< of the whole recording, where thresholds are learned
 };

@@ -80,6 +80,7 @@ constexpr auto kTypes = std::to_array<KnownType>({
     {"aims_msgs/FootContacts", "Header header\nstring[] foot\nbool[] contact\nfloat64[] force\n",
      "8b09c12c9b63045360d7dd28104f0e10"},
     {kFootLoads, "Header header\nstring[] name\nfloat64[] load\n"},
+    {kFootPlaces, "Header header\ngeometry_msgs/Point[] place\n"},
     {kFootForces, "Header header\nstring[] foot\nfloat64[] force\n",
      "0e9adc5ef17fe874de1d5f3df81ec97a"},
     {kUnitreeLowState,
@@ -172,6 +173,7 @@ MessageType transforms_type() { return type_of(*find_known("tf2_msgs/TFMessage")
 MessageType diagnostics_type() { return type_of(*find_known("diagnostic_msgs/DiagnosticArray")); }
 MessageType foot_forces_type() { return type_of(*find_known(kFootForces)); }
 MessageType foot_loads_type() { return type_of(*find_known(kFootLoads)); }
+MessageType foot_places_type() { return type_of(*find_known(kFootPlaces)); }
 MessageType foot_contacts_type() { return type_of(*find_known("aims_msgs/FootContacts")); }
 
 std::optional<MessageType> known_ros2_type(std::string_view name) {

@@ -16,6 +16,9 @@ inline constexpr std::string_view kUnitreeSportState = "unitree_go/SportModeStat
 /// Loads of the feet in any unit, of messages that hold a foot each.
 inline constexpr std::string_view kFootLoads = "aims_msgs/FootLoads";
 
+/// Where the feet are in the base, of messages that hold a foot each: FL, FR, RL, RR.
+inline constexpr std::string_view kFootPlaces = "aims_msgs/FootPlaces";
+
 /// Loads of the feet in any unit, of a table of comma-separated values.
 inline constexpr std::string_view kFootForces = "aims_msgs/FootForces";
 
@@ -30,6 +33,7 @@ MessageType transforms_type();     ///< tf2_msgs/TFMessage
 MessageType diagnostics_type();    ///< diagnostic_msgs/DiagnosticArray
 MessageType foot_forces_type();    ///< aims_msgs/FootForces: loads in any unit
 MessageType foot_loads_type();     ///< aims_msgs/FootLoads: likewise, of single feet
+MessageType foot_places_type();    ///< aims_msgs/FootPlaces: where the feet are in the base
 MessageType foot_contacts_type();  ///< aims_msgs/FootContacts: contacts and forces of the feet
 
 /// A usual type as ROS 2 has it, or nothing: what AIMS writes or reads, also of Livox and Unitree.

@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <vector>
 
+#include "recordings/messages/message_types.hpp"
 #include "recordings/messages/words.hpp"
 
 namespace aims {
@@ -105,6 +106,7 @@ constexpr auto kStates = std::to_array<StateLayout>({
      .feet = "states[].foot_position_rt_body",
      .contacts = "states[].contact",
      .contact_kind = ContactKind::kState},
+    {.type = kFootPlaces, .feet = "place[]"},
     {.type = "unitree_hg/LowState",
      .robot = "a G1 with 29 joints",
      .topic = "/lowstate",

@@ -18,6 +18,7 @@
 #include "recordings/messages/message_bytes.hpp"
 #include "recordings/messages/message_decoder.hpp"
 #include "recordings/messages/message_types.hpp"
+#include "recordings/source/decided_start.hpp"
 #include "recordings/source/derived_source.hpp"
 #include "recordings/source/leg_topics.hpp"
 #include "recordings/source/part_joiner.hpp"
@@ -77,6 +78,22 @@ MessageBytes joints_message(const Parts& parts, const JoinedParts& set) {
   return out;
 }
 
+/// Where the feet are, FL, FR, RL, RR; in the frame that all name.
+MessageBytes places_message(const JoinedParts& set) {
+  MessageBytes out;
+  out.put(std::uint32_t{0});
+  out.time(set.time);
+  const std::string& frame = set.samples.front()->frame;
+  const bool same = std::ranges::all_of(
+      set.samples, [&frame](const LegPartSample* each) { return each->frame == frame; });
+  out.text(same ? frame : "");
+  out.length(set.samples.size());
+  for (std::size_t i = 0; i < set.samples.size(); ++i) {
+    for (const double each : *set.samples[i]->place) out.put(set.silent[i] ? kUnknown : each);
+  }
+  return out;
+}
+
 MessageBytes loads_message(const std::vector<std::string>& feet, const std::vector<double>& loads,
                            Time stamp) {
   MessageBytes out;
@@ -94,34 +111,22 @@ struct PartTopic {
   std::map<std::uint32_t, MessageDecoder> decoders;
   PartJoiner joiner;
 
-  /// The part of a message of that topic.
-  std::optional<std::size_t> part_of(const BagMessage& message, const LegPartSample& sample) const {
-    const auto of_topic = [&](const LegPart& each) {
-      return each.connection == message.connection->id;
-    };
-    const auto first = std::ranges::find_if(topics.parts, of_topic);
-    if (first == topics.parts.end()) return std::nullopt;
-    const bool shared = std::ranges::count_if(topics.parts, of_topic) > 1;
-    const auto named = shared ? aims::part_of(sample, fields) : std::optional(*first);
-    if (!named) return std::nullopt;
-    const auto at = std::ranges::find_if(topics.parts, [&](const LegPart& each) {
-      return of_topic(each) && each.name == named->name && each.joint == named->joint;
-    });
-    if (at == topics.parts.end()) return std::nullopt;
-    return static_cast<std::size_t>(at - topics.parts.begin());
-  }
-
+  /// Whether the message completes anything.
   bool add(const BagMessage& message) {
     const auto decoder = decoders.find(message.connection->id);
     if (decoder == decoders.end()) return false;
     const auto view = decoder->second.decode(message.data);
-    auto sample = view ? fields.read(*view, message.taken()) : std::nullopt;
-    const auto part = sample ? part_of(message, *sample) : std::nullopt;
-    if (!part || sample->time < 0) return false;
-    if (topics.joints && sample->angles.empty()) return false;
-    if (topics.loads && !sample->load) return false;
-    joiner.add(*part, std::move(*sample));
-    return true;
+    if (!view) return false;
+    bool added = false;
+    for (auto& [part, sample] :
+         samples_of(topics, fields, message.connection->id, *view, message.taken())) {
+      const bool lacks = (topics.joints && sample.angles.empty()) ||
+                         (topics.loads && !sample.load) || (topics.places && !sample.place);
+      if (lacks || sample.time < 0) continue;
+      joiner.add(part, std::move(sample));
+      added = true;
+    }
+    return added;
   }
 };
 
@@ -132,7 +137,8 @@ class JoinedLegs final : public DerivedSource {
     for (PartTopic& each : topics_) {
       std::set<std::uint32_t> from;
       for (const LegPart& part : each.topics.parts) from.insert(part.connection);
-      const std::uint64_t messages = mark_parts(from) / each.topics.parts.size();
+      const std::uint64_t parts = each.topics.feet ? 1 : each.topics.parts.size();
+      const std::uint64_t messages = mark_parts(from) / parts;
       Made made;
       const std::string& name = each.topics.topic;
       const std::string& text = each.topics.text;
@@ -142,6 +148,9 @@ class JoinedLegs final : public DerivedSource {
       if (each.topics.loads) {
         made.loads = add_topic(name + "/contacts", foot_loads_type(), messages, from, text);
       }
+      if (each.topics.places) {
+        made.places = add_topic(name + "/feet", foot_places_type(), messages, from, text);
+      }
       made_.push_back(made);
     }
   }
@@ -149,11 +158,13 @@ class JoinedLegs final : public DerivedSource {
  private:
   /// Ids of the topics that are made.
   struct Made {
-    std::optional<std::uint32_t> joints, loads;
+    std::optional<std::uint32_t> joints, loads, places;
   };
 
   void restart() override {
-    for (PartTopic& each : topics_) each.joiner = PartJoiner(each.topics.parts.size());
+    for (PartTopic& each : topics_) {
+      each.joiner = PartJoiner(each.topics.parts.size(), each.topics.on_change);
+    }
   }
 
   Result<void> see(const BagMessage& message) override {
@@ -177,6 +188,7 @@ class JoinedLegs final : public DerivedSource {
       give(*made_[i].loads, record_time, loads_message(feet, loads, set.time));
     }
     if (made_[i].joints) give(*made_[i].joints, record_time, joints_message(parts, set));
+    if (made_[i].places) give(*made_[i].places, record_time, places_message(set));
   }
 
   std::vector<PartTopic> topics_;
@@ -188,7 +200,9 @@ class JoinedLegs final : public DerivedSource {
 void join_single_legs(std::unique_ptr<MessageSource>& source) {
   std::vector<PartTopic> topics;
   const std::vector<BagConnection>& all = source->connections();
-  for (LegTopics& each : find_leg_topics(*source)) {
+  // A live estimate decided from what it had heard.
+  DecidedStart start(*source);
+  for (LegTopics& each : find_leg_topics(is_of_live_estimate(*source) ? start : *source)) {
     std::map<std::uint32_t, MessageDecoder> decoders;
     std::optional<LegFields> fields;
     for (const BagConnection& connection : all) {
@@ -198,11 +212,11 @@ void join_single_legs(std::unique_ptr<MessageSource>& source) {
       auto decoder =
           MessageDecoder::create(connection.type, connection.definition, connection.format);
       if (!decoder) continue;
-      if (!fields) fields.emplace(connection.type, *decoder);
+      if (!fields) fields.emplace(connection.topic, connection.type, *decoder);
       decoders.emplace(connection.id, std::move(*decoder));
     }
     if (!fields) continue;
-    PartJoiner joiner(each.parts.size());
+    PartJoiner joiner(each.parts.size(), each.on_change);
     topics.push_back({std::move(each), std::move(*fields), std::move(decoders), std::move(joiner)});
   }
   if (!topics.empty()) source = std::make_unique<JoinedLegs>(std::move(source), std::move(topics));

@@ -27,23 +27,15 @@ constexpr auto kLoads = std::to_array<std::string_view>(
     {"contact", "incontact", "iscontact", "contactstate", "contactflag", "stance", "isstance",
      "touch", "touchdown", "force", "load", "footforce", "contactforce", "normalforce", "grf",
      "pressure", "footload", "footcontact"});
+constexpr auto kPlaces = std::to_array<std::string_view>(
+    {"footposition", "footpos", "footpositionbody", "footpositionbase", "footpositioninbody",
+     "footpositionrtbody", "footposition2body", "footpoint"});
+/// Of the foot, where topic and type speak of one.
+constexpr auto kPlacesOfFeet = std::to_array<std::string_view>(
+    {"position", "pos", "point", "place", "translation", "positionbody"});
 constexpr auto kLegs = std::to_array<std::string_view>(
     {"leg", "legid", "legindex", "legname", "legnumber", "foot", "footid", "footindex", "footname",
      "footnumber", "limb", "limbid", "limbname"});
-
-/// The last name of a path, in lower case without underscores.
-std::string last_name(std::string_view path) {
-  std::string name;
-  for (const char c : path.substr(path.rfind('.') + 1)) {
-    if (c != '_') name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  return name;
-}
-
-template <std::size_t kCount>
-bool is_one_of(const std::string& name, const std::array<std::string_view, kCount>& names) {
-  return std::ranges::find(names, name) != names.end();
-}
 
 /// The path of the vector that "a.force.x" is a coordinate of; empty for others.
 std::string vector_of(std::string_view path) {
@@ -53,15 +45,34 @@ std::string vector_of(std::string_view path) {
 
 }  // namespace
 
-LegFields::LegFields(const std::string& type, const MessageDecoder& decoder)
-    : joint_state_(type == "sensor_msgs/JointState"), plain_(type.starts_with("std_msgs/")) {
+std::string last_name(std::string_view path) {
+  std::string name;
+  for (const char c : path.substr(path.rfind('.') + 1)) {
+    if (c != '_') name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return name;
+}
+
+bool is_of_feet(std::string_view topic, std::string_view type) {
+  std::string both = fmt::format("{} {}", topic, type);
+  std::ranges::transform(both, both.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const auto holds = [&both](std::string_view part) { return both.find(part) != both.npos; };
+  return (holds("foot") || holds("feet") || holds("toe")) && !holds("joint") && !holds("motor");
+}
+
+LegFields::LegFields(std::string_view topic, const std::string& type, const MessageDecoder& decoder)
+    : joint_state_(type == "sensor_msgs/JointState"),
+      plain_(type.starts_with("std_msgs/")),
+      of_feet_(is_of_feet(topic, type)) {
   for (const MessageField& field : decoder.fields()) take(field);
 }
 
 void LegFields::take(const MessageField& field) {
   const std::string name = last_name(field.path);
   const bool number = field.kind == FieldKind::kNumber, numbers = field.kind == FieldKind::kNumbers;
-  if (number || numbers) {
+  take_place(field, name);
+  if ((number || numbers) && place_ != field.path) {
     if (angles_.empty() && is_one_of(name, kAngles)) {
       angles_ = field.path;
       one_joint_ = number;
@@ -85,6 +96,19 @@ void LegFields::take(const MessageField& field) {
   }
   const bool names = number || field.kind == FieldKind::kText;
   if (leg_.empty() && names && is_one_of(name, kLegs)) leg_ = field.path;
+}
+
+void LegFields::take_place(const MessageField& field, const std::string& name) {
+  if (!place_.empty()) return;
+  const auto fits = [&](const std::string& each) {
+    return is_one_of(each, kPlaces) || (of_feet_ && is_one_of(each, kPlacesOfFeet));
+  };
+  const std::string vector = vector_of(field.path);
+  if (field.kind == FieldKind::kNumber && !vector.empty() && fits(last_name(vector))) {
+    place_ = vector;
+  } else if (field.kind == FieldKind::kNumbers && fits(name)) {
+    place_ = field.path;
+  }
 }
 
 std::vector<double> LegFields::joints_of(const MessageView& message,
@@ -138,13 +162,18 @@ std::optional<LegPartSample> LegFields::read(const MessageView& message, Time ti
   sample.rates = joints_of(message, rates_);
   sample.efforts = joints_of(message, efforts_);
   sample.load = load_of(message);
+  if (!place_.empty()) sample.place = vector_at(message, place_);
+  if (const auto points = points_at(message, place_); points && points->size() == 1) {
+    sample.place = points->front();
+  }
+  sample.frame = message.text("header.frame_id").value_or("");
   if (joint_state_) {
     for (const auto& name : message.texts("name").value_or(std::vector<std::string_view>())) {
       sample.names.emplace_back(name);
     }
     if (sample.names.size() != sample.angles.size()) sample.names.clear();
   }
-  if (sample.angles.empty() && !sample.load) return std::nullopt;
+  if (sample.angles.empty() && !sample.load && !sample.place) return std::nullopt;
   sample.leg = leg_of(message, sample);
   return sample;
 }

@@ -18,7 +18,7 @@ constexpr int kManyMissed = 3;  ///< sets without a new sample: it is not awaite
 
 void PartJoiner::add(std::size_t index, LegPartSample sample) {
   Part& part = parts_[index];
-  if (part.added - sample.time > kBack) *this = PartJoiner(parts_.size());
+  if (part.added - sample.time > kBack) *this = PartJoiner(parts_.size(), on_change_);
   if (part.added > 0 && sample.time <= part.added) return;
   part.added = sample.time;
   newest_ = std::max(newest_, sample.time);
@@ -41,6 +41,7 @@ bool PartJoiner::is_silent(const Part& part, Time time) {
 bool PartJoiner::is_awaited(const Part& part, Time time) const {
   if (!part.waiting.empty()) return false;
   if (!part.last) return true;
+  if (on_change_) return false;
   if (time <= part.last->time + part.period / 2) return false;
   return newest_ - part.last->time <= std::max(kLongestWait, 3 * part.period);
 }
@@ -62,7 +63,7 @@ std::optional<std::size_t> PartJoiner::earliest() const {
 void PartJoiner::take(Part& part) {
   LegPartSample sample = std::move(part.waiting.front());
   part.waiting.pop_front();
-  if (part.last) {
+  if (part.last && !on_change_) {
     part.steps[part.count++ % part.steps.size()] = sample.time - part.last->time;
     const auto known = std::min(part.count, part.steps.size());
     part.period = *upper_median(
@@ -73,10 +74,12 @@ void PartJoiner::take(Part& part) {
   if (!begun_) begun_ = part.last->time;
 }
 
-/// Whether all parts have something new but those that have been silent for a while.
+/// Whether all parts have something new but those that have been silent for a while; on change,
+/// whether all have anything.
 bool PartJoiner::is_whole(Time time) const {
   return std::ranges::all_of(parts_, [&](const Part& each) {
-    return each.is_new || (each.missed >= kManyMissed && is_late(each, time));
+    return each.is_new || (on_change_ && each.last) ||
+           (each.missed >= kManyMissed && is_late(each, time));
   });
 }
 

@@ -21,9 +21,12 @@ struct JoinedParts {
 
 /// Joins samples of parts that are published apart: the newest of each, when all have a new one. A
 /// part that has not by half a period after it was due lacks one: then its last sample serves.
+/// Samples that are published only on change have no period: each makes a set with the last ones of
+/// the other parts.
 class PartJoiner {
  public:
-  explicit PartJoiner(std::size_t parts) : parts_(parts) {}
+  explicit PartJoiner(std::size_t parts, bool on_change = false)
+      : on_change_(on_change), parts_(parts) {}
 
   /// Samples of a part come in order of time; others are left out.
   void add(std::size_t part, LegPartSample sample);
@@ -52,6 +55,7 @@ class PartJoiner {
   bool lacks(Time time) const;
   JoinedParts give();
 
+  bool on_change_;
   std::vector<Part> parts_;
   Time newest_ = 0;            ///< stamp of all
   Time given_ = 0;             ///< time of the last set

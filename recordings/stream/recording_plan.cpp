@@ -241,7 +241,9 @@ void warn_of_batches(MessageSource& bag, RecordingSetup& setup) {
 void note_joined(MessageSource& bag, RecordingSetup& setup) {
   for (const BagConnection& each : bag.connections()) {
     if (each.joined_from.empty()) continue;
-    if (each.topic != setup.topics.joint_states && each.topic != setup.topics.contacts) continue;
+    const TopicsConfig& topics = setup.topics;
+    const auto used = {topics.joint_states, topics.contacts, topics.leg_odometry, topics.imu};
+    if (std::ranges::find(used, each.topic) == used.end()) continue;
     setup.notes.push_back(fmt::format("{}: joined from {}", each.topic, each.joined_from));
   }
 }

@@ -11,8 +11,8 @@
 
 #include "core/text.hpp"
 #include "recordings/legs/leg_stream.hpp"
+#include "recordings/source/decided_start.hpp"
 #include "recordings/source/recording_file.hpp"
-#include "recordings/stream/decided_start.hpp"
 #include "recordings/stream/record_clock.hpp"
 #include "recordings/stream/recording_plan.hpp"
 #include "recordings/stream/repeated_samples.hpp"

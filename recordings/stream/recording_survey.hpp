@@ -108,6 +108,9 @@ class RecordingSurvey {
   double median_norm(Eigen::Vector3d ImuSample::*part) const;
   Eigen::Vector3d force_sum() const;
   bool changes(Eigen::Vector3d ImuSample::*part) const;
+  /// Replaces the nominal rate of a sensor by the measured one where they differ by more than 10 %.
+  void adopt_rate(std::optional<double> measured_hz, const char* sensor, double& nominal_hz);
+  void note_orientation();
   void warn_of_force(double force);
   void decide_force_unit(RecordingPlan& plan);
   std::optional<double> rate_of(Role role, const RecordingPlan& plan) const;
@@ -118,6 +121,7 @@ class RecordingSurvey {
   void warn_of_motion(const RecordingPlan& plan);
   void decide_imu(RecordingPlan& plan);
   void warn_of_odometry(const std::string& type);
+  void warn_of_slow_legs(const std::optional<double>& rate);
   void decide_legs(RecordingPlan& plan);
   bool is_imu_of_base() const;
   void decide_frames(RecordingPlan& plan);

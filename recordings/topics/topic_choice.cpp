@@ -11,6 +11,7 @@
 #include <set>
 
 #include "recordings/messages/inertial_topics.hpp"
+#include "recordings/messages/message_types.hpp"
 #include "recordings/messages/robot_states.hpp"
 #include "recordings/messages/words.hpp"
 #include "recordings/topics/recording_topics.hpp"
@@ -212,7 +213,12 @@ Result<std::string> legs(const Chooser& chooser, const std::string& configured) 
   // Joints give more than feet.
   topic = state_topic(chooser, "leg_odometry", has_joints);
   if (!topic) return topic;
-  return topic->empty() ? state_topic(chooser, "leg_odometry", has_feet) : std::string();
+  topic = topic->empty() ? state_topic(chooser, "leg_odometry", has_feet) : std::string();
+  const bool joints = std::ranges::any_of(chooser.connections(), [](const BagConnection& each) {
+    return is_joints(each) && each.messages > 0 && !each.is_part;
+  });
+  const auto* const found = topic ? chooser.find(*topic) : nullptr;
+  return joints && found != nullptr && found->type == kFootPlaces ? std::string() : topic;
 }
 
 /// Joints or contacts of a robot's state where no other topic has them.
@@ -263,6 +269,17 @@ void note_possible_truth(const Chooser& chooser, std::vector<std::string>& notes
   }
 }
 
+/// Places of feet are not read where joints are recorded, be these of other limbs.
+void note_unused_feet(const Chooser& chooser, std::vector<std::string>& notes) {
+  for (const BagConnection& each : chooser.connections()) {
+    if (each.type != kFootPlaces || each.messages == 0) continue;
+    notes.push_back(fmt::format(
+        "{} holds the places of the feet and is not read, since joints are recorded: to "
+        "read it, --topics leg_odometry={}",
+        each.topic, each.topic));
+  }
+}
+
 Choice choice_of(const Chooser& chooser, const TopicsConfig& configured,
                  std::vector<std::string>& notes) {
   const Request lidar = {"lidar", "sensor_msgs/PointCloud2 or a livox CustomMsg", is_cloud};
@@ -274,6 +291,9 @@ Choice choice_of(const Chooser& chooser, const TopicsConfig& configured,
   choice.keep(topics.lidar, required_topic(chooser, lidar, configured.lidar, kLidarTopic));
   choice.keep(topics.imu, imu_topic(chooser, configured.imu));
   choice.keep(topics.leg_odometry, legs(chooser, configured.leg_odometry));
+  if (topics.leg_odometry.empty() && configured.leg_odometry.empty()) {
+    note_unused_feet(chooser, notes);
+  }
   choice.keep(topics.joint_states, optional_topic(chooser, joints, configured.joint_states,
                                                   kJointStatesTopic, is_joints, notes));
   choice.keep(topics.contacts, optional_topic(chooser, contacts, configured.contacts,

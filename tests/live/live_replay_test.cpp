@@ -18,6 +18,7 @@
 #include "recordings/stream/recording_reader.hpp"
 #include "recordings/stream/recording_writer.hpp"
 #include "tests/recordings/stream/recorded_deliveries.hpp"
+#include "tests/recordings/stream/recorded_trot.hpp"
 #include "tests/support/kinematic_world.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -78,6 +79,35 @@ LiveMessages messages_of(const std::filesystem::path& file) {
   return messages;
 }
 
+/// What a live estimate reads of these messages; its record is `record`.
+std::vector<Delivery> read_live(LiveMessages coming, const std::filesystem::path& record,
+                                const RecordingConfig& config) {
+  auto gathered = std::make_shared<LiveMessages>();
+  const Time settled = coming.at(1).arrival + kSettle;  // the first one may be a fixed transform
+  while (!coming.empty() && coming.front().arrival < settled) {
+    gathered->push_back(std::move(coming.front()));
+    coming.pop_front();
+  }
+  auto source = std::make_unique<LiveSource>(gathered, [&]() -> std::optional<LiveMessage> {
+    if (coming.empty()) return std::nullopt;
+    LiveMessage next = std::move(coming.front());
+    coming.pop_front();
+    return next;
+  });
+  LiveSource& live = *source;
+  auto reader = open_live(std::move(source), config);
+  EXPECT_TRUE(reader) << reader.error().message;
+  if (!reader) return {};
+  auto recorder = Recorder::create(record, record.extension() == ".mcap" ? kRos2Format : kRos1Format);
+  EXPECT_TRUE(recorder);
+  if (!recorder) return {};
+  live.go_live([&](const BagMessage& message) { recorder->add(message); });
+  auto deliveries = test::read_all(*reader);
+  EXPECT_TRUE(deliveries);
+  EXPECT_TRUE(recorder->close());
+  return std::move(*deliveries);
+}
+
 class LiveReplay : public testing::TestWithParam<const char*> {
  protected:
   std::vector<Delivery> read(const RecordingConfig& config) const {
@@ -88,36 +118,14 @@ class LiveReplay : public testing::TestWithParam<const char*> {
     return std::move(*deliveries);
   }
 
-  /// What a live estimate reads; its record is `record_`.
+  /// What a live estimate reads of a walk; its record is `record_`.
   std::vector<Delivery> read_live() const {
     const std::filesystem::path walk = folder_.path() / "walk.bag";
     const std::filesystem::path walk_of_ros2 = folder_.path() / "walk.mcap";
     const bool cdr = record_.extension() == ".mcap";
     record_walk(walk);
     if (cdr) convert(walk, walk_of_ros2);
-    LiveMessages coming = messages_of(cdr ? walk_of_ros2 : walk);
-    auto gathered = std::make_shared<LiveMessages>();
-    const Time settled = coming.front().arrival + kSettle;
-    while (!coming.empty() && coming.front().arrival < settled) {
-      gathered->push_back(std::move(coming.front()));
-      coming.pop_front();
-    }
-    auto source = std::make_unique<LiveSource>(gathered, [&]() -> std::optional<LiveMessage> {
-      if (coming.empty()) return std::nullopt;
-      LiveMessage next = std::move(coming.front());
-      coming.pop_front();
-      return next;
-    });
-    LiveSource& live = *source;
-    auto reader = RecordingReader::open(std::move(source), RecordingConfig());
-    EXPECT_TRUE(reader) << reader.error().message;
-    auto recorder = Recorder::create(record_, cdr ? kRos2Format : kRos1Format);
-    EXPECT_TRUE(recorder);
-    live.go_live([&](const BagMessage& message) { recorder->add(message); });
-    auto deliveries = test::read_all(*reader);
-    EXPECT_TRUE(deliveries);
-    EXPECT_TRUE(recorder->close());
-    return std::move(*deliveries);
+    return aims::read_live(messages_of(cdr ? walk_of_ros2 : walk), record_, {});
   }
 
   TemporaryFolder folder_;
@@ -135,6 +143,24 @@ TEST_P(LiveReplay, DecidesFromWhatTheLiveEstimateHad) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, LiveReplay, testing::Values(".mcap", ".bag"));
+
+class LiveLegs : public test::RecordedTrot {};
+
+TEST_F(LiveLegs, InMessagesOfTheirOwnAreJoinedAsInARecording) {
+  RecordingConfig config;
+  config.topics.lidar = "none";
+  for (const bool on_change : {false, true}) {
+    const auto record = folder_.path() / (on_change ? "on_change.bag" : "always.bag");
+    const auto file = write({.forces = false,
+                             .single = "/{}/joint_states",
+                             .on_change = on_change,
+                             .single_contacts = "/{}/contact"});
+    const std::vector<Delivery> live = read_live(messages_of(file), record, config);
+    EXPECT_GT(test::legs_of(live).size(), 390U);
+    test::expect_same_deliveries(live, test::read_recording(record, config).deliveries);
+    test::expect_same_deliveries(live, test::read_recording(file, config).deliveries);
+  }
+}
 
 }  // namespace
 }  // namespace aims

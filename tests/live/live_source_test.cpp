@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "recordings/stream/decided_start.hpp"
+#include "recordings/source/decided_start.hpp"
 
 namespace aims {
 namespace {

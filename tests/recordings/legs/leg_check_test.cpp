@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <random>
 
 namespace aims {
@@ -69,6 +70,30 @@ TEST(LegCheck, AWalkingRobotIsNotWarnedOf) {
   EXPECT_EQ(text_of(warnings_of({.of_foot = late_load})), "") << "as of a real robot";
 }
 
+/// The foot as joints with other zeros [rad] state it; of all legs, or of one.
+Fault zeros(const Eigen::Vector3d& off, std::optional<int> leg = std::nullopt) {
+  return {.of_foot = [off, leg](StandingFoot& foot) {
+    if (leg && foot.leg != *leg) return;
+    const Eigen::Vector3d q(0.0, 0.8, -1.6);
+    const Eigen::Vector3d rates =
+        foot_jacobian(foot.leg, q, kLegs).partialPivLu().solve(foot.velocity);
+    foot.position = foot_in_base(foot.leg, q + off, kLegs);
+    foot.velocity = foot_jacobian(foot.leg, q + off, kLegs) * rates;
+  }};
+}
+
+TEST(LegCheck, ZerosOfJointsThatAreOffByAThirdOfARadianAreNamed) {
+  const std::string of_hip = "the zero of the hip is off", of_abduction = "of the abductions";
+  for (const double sign : {-1.0, 1.0}) {
+    expect_named(zeros({0.0, sign * 0.3, 0.0}), of_hip);
+    expect_named(zeros({0.0, sign * 0.35, 0.0}, 2), of_hip);
+    expect_named(zeros({0.0, sign * 0.35, 0.0}, 2), "base, RL ");
+    expect_named(zeros({0.0, 0.0, sign * 0.6}), of_hip);
+    expect_named(zeros({sign * 0.35, 0.0, 0.0}), of_abduction);
+  }
+  EXPECT_EQ(text_of(warnings_of(zeros({0.03, -0.05, 0.05}))), "");
+}
+
 TEST(LegCheck, ExchangedLegsAreNamed) {
   const auto left_right = [](StandingFoot& foot) { foot.position.y() *= -1.0; };
   const auto front_rear = [](StandingFoot& foot) { foot.position.x() *= -1.0; };
@@ -91,6 +116,35 @@ TEST(LegCheck, AnAccelerometerThatTheLegsContradictIsNamed) {
   expect_named({.of_foot = mirrored}, "x of the accelerometer, or the joints");
   const auto small = [](StandingFoot& foot) { foot.velocity *= 0.4; };
   expect_named({.of_foot = small}, "the lengths (leg_geometry), the zero or the unit");
+}
+
+/// Of a robot that walks straight ahead and rolls by 1.5 degrees to and fro; `sign`: of y of its
+/// accelerometer.
+std::string warnings_of_rolling_walk(double sign) {
+  LegCheck check(kLegs);
+  for (int i = 0; i < 3000; ++i) {
+    const double phase = 0.01 * i;  // [s]
+    const double roll = 0.026 * std::sin(2.0 * phase), rate = 0.052 * std::cos(2.0 * phase);
+    ImuSample imu;
+    imu.stamp = i * 10 * kMillisecond;
+    imu.angular_velocity = {rate, 0.0, 0.0};
+    imu.specific_force = {0.0, sign * 9.81 * std::sin(roll), 9.81 * std::cos(roll)};
+    check.add_imu(imu, Eigen::Vector3d::Zero());
+    const Eigen::Vector3d velocity(0.5, 0.0, 0.0);
+    std::vector<StandingFoot> feet;
+    for (const int leg : {0, 3}) {
+      const Eigen::Vector3d place = foot_in_base(leg, {0.0, 0.8, -1.6}, kLegs);
+      feet.push_back({leg, place, -velocity - imu.angular_velocity.cross(place)});
+    }
+    check.add_feet(feet, velocity);
+  }
+  return text_of(check.warnings());
+}
+
+TEST(LegCheck, AnAxisOfTheAccelerometerWithTheWrongSignIsNamedInAStraightWalk) {
+  EXPECT_EQ(warnings_of_rolling_walk(1.0), "");
+  const std::string named = warnings_of_rolling_walk(-1.0);
+  EXPECT_NE(named.find("y of the accelerometer, or of the velocity"), std::string::npos) << named;
 }
 
 /// Of a robot that stands, walks straight ahead for some 11 s and stands, by a foot in front

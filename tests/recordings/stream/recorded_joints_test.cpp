@@ -110,6 +110,14 @@ TEST_F(RecordedTrot, JointsWithoutNamesAreGivenByTheirIndices) {
                          "recording.joint_names to the twelve indices"));
 }
 
+TEST_F(RecordedTrot, JointsOfNumberedLegsWithoutRatesAreOrderedByTheMotion) {
+  const Recording numbered = read({.numbered = true, .rates = false, .legs = {1, 0, 3, 2}});
+  ASSERT_EQ(numbered.error, "");
+  EXPECT_TRUE(numbered.noted("the names 'leg0_joint0, leg0_joint1"));
+  EXPECT_TRUE(numbered.noted("tell no joints: legs in the order ")) << "which one is said";
+  EXPECT_NEAR(speed(numbered), test::Trot::kSpeed, 0.02);
+}
+
 TEST_F(RecordedTrot, AnglesInDegreesAreNamedAndConverted) {
   const TrotOptions degrees = {.unit = std::numbers::pi / 180.0};
   EXPECT_TRUE(read(degrees).noted("recording.joint_unit=deg"));

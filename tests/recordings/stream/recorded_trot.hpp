@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <functional>
 #include <set>
 #include <string>
@@ -18,6 +19,8 @@ namespace aims::test {
 /// A trot recorded as sensor_msgs/JointState with torques of the knees, and forces of the feet.
 struct TrotOptions {
   bool named = true;
+  bool numbered = false;  ///< the names are "leg0_joint0", ...
+  bool rates = true;
   double unit = 1.0;  ///< of the angles, in rad
   std::vector<int> legs = {0, 1, 2, 3};
   std::array<int, kLegCount> feet = {0, 1, 2, 3};
@@ -28,9 +31,12 @@ struct TrotOptions {
   std::set<int> dead = {};  ///< feet whose load is lost
   int lost = 0;             ///< of so many messages of the joints one
   std::string single = {};  ///< each leg has messages of its own: their topic, with {} for the leg
-  std::set<int> absent = {};  ///< legs that have no messages
-  int dies = 1000;            ///< message after which the rear right leg is silent
-  int batch = 1;              ///< so many messages are recorded at once, joints without a stamp
+  std::set<int> absent = {};         ///< legs that have no messages
+  int dies = 1000;                   ///< message after which the rear right leg is silent
+  bool on_change = false;            ///< loads are published only when a foot lands or lifts off
+  std::string single_contacts = {};  ///< each foot has messages of its own: their topic, as above
+  bool stance = false;               ///< contacts are fields that name the feet
+  int batch = 1;  ///< so many messages are recorded at once, joints without a stamp
 };
 
 inline MessageBytes trot_joints(Time stamp, const Trot& trot, double time,
@@ -46,12 +52,14 @@ inline MessageBytes trot_joints(Time stamp, const Trot& trot, double time,
     constexpr std::array<const char*, kLegCount> kNames = {"FL", "FR", "RL", "RR"};
     constexpr std::array<const char*, 3> kParts = {"_hip", "_thigh", "_calf"};
     for (int part = 0; part < 3; ++part) {
-      if (options.named) {
+      if (options.numbered) {
+        names.push_back("leg" + std::to_string(names.size() / 3) + "_joint" + std::to_string(part));
+      } else if (options.named) {
         names.push_back(std::string(kNames[static_cast<std::size_t>(leg)]) +
                         kParts[static_cast<std::size_t>(part)]);
       }
       position.push_back(q[3 * leg + part] / options.unit);
-      velocity.push_back(dq[3 * leg + part] / options.unit);
+      if (options.rates) velocity.push_back(dq[3 * leg + part] / options.unit);
       const bool bears = part == 2 && trot.contact(time)[static_cast<std::size_t>(leg)];
       effort.push_back(bears ? -11.0 : 0.4);
     }
@@ -65,6 +73,13 @@ inline MessageBytes trot_joints(Time stamp, const Trot& trot, double time,
 class RecordedTrot : public RecordingTest {
  protected:
   Recording read(const TrotOptions& options, RecordingConfig config = {}) {
+    const auto file = write(options);
+    config.topics.lidar = "none";
+    if (options.forces) config.topics.contacts = "/foot_forces";
+    return read_recording(file, config);
+  }
+
+  std::filesystem::path write(const TrotOptions& options) {
     const auto file = folder_.path() / (std::to_string(count_++) + ".bag");
     RobotRecording robot(file);
     robot.add_transforms(kMounted);
@@ -83,7 +98,32 @@ class RecordedTrot : public RecordingTest {
       const double time = 0.01 * k + 0.003;
       recorded = now;
       robot.add_imu(now, 1);
-      if (options.forces) {
+      if (options.stance) {
+        MessageBytes message;
+        message.put(std::uint32_t{0});
+        message.time(now);
+        message.text("base");
+        for (const std::size_t leg : {0, 2, 1, 3}) {
+          message.put(trot.contact(time)[leg] ? 1.0F : 0.0F);
+        }
+        robot.add("/stance",
+                  {"pronto_msgs/QuadrupedStance", "",
+                   "Header header\nfloat32 lf\nfloat32 lh\nfloat32 rf\nfloat32 rh\n" +
+                       std::string(80, '=') +
+                       "\nMSG: std_msgs/Header\nuint32 seq\ntime stamp\nstring frame_id\n"},
+                  now, message);
+      }
+      const bool changes = k == 0 || trot.contact(time) != trot.contact(time - 0.01);
+      if (!options.single_contacts.empty() && (changes || !options.on_change)) {
+        for (const int leg : {2, 0, 3, 1}) {
+          MessageBytes message;
+          message.put(static_cast<std::uint8_t>(trot.contact(time)[static_cast<std::size_t>(leg)]));
+          robot.add(topic_of(options.single_contacts, leg),
+                    {"std_msgs/Bool", "8b94c1b53db61fb6aed406028ad6332a", "bool data\n"}, now,
+                    message);
+        }
+      }
+      if (options.forces && (changes || !options.on_change)) {
         MessageBytes message;
         message.length(0);
         message.put(std::uint32_t{0});
@@ -116,9 +156,7 @@ class RecordedTrot : public RecordingTest {
       batch.clear();
     }
     robot.close();
-    config.topics.lidar = "none";
-    if (options.forces) config.topics.contacts = "/foot_forces";
-    return read_recording(file, config);
+    return file;
   }
 
   /// The topic of a leg.

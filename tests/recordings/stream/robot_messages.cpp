@@ -22,7 +22,7 @@ const std::string kLegged =
     used("unitree_legged_msgs/Cartesian", "float32 x\nfloat32 y\nfloat32 z");
 
 void put_imu(MessageBytes& out, const RobotSample& sample) {
-  for (const float each : {1.0F, 0.0F, 0.0F, 0.0F}) out.put(each);
+  for (const float each : sample.quaternion) out.put(each);
   put_vector<float>(out, {0.0, 0.0, sample.turn_rate});
   put_vector<float>(out, {0.0, 0.0, 9.81});
   fill<float>(out, 3);
@@ -38,7 +38,11 @@ void put_motors(MessageBytes& out, const RobotSample& sample) {
         exists ? 3 * kUnitreeLegs[static_cast<std::size_t>(motor / 3)] + motor % 3 : 0;
     out.put(exists ? static_cast<float>(sample.angles[joint]) : 9.0F);
     out.put(exists ? static_cast<float>(sample.rates[joint]) : 9.0F);
-    fill<float>(out, 5);
+    const bool bears =
+        exists && motor % 3 == 2 && sample.contact[static_cast<std::size_t>(joint / 3)];
+    out.put(0.0F);
+    out.put(bears ? -11.0F : 0.4F);
+    fill<float>(out, 3);
     out.put(std::int8_t{30});
     fill<std::uint32_t>(out, 2);
   }
@@ -58,7 +62,8 @@ void put_forces(MessageBytes& out, const RobotSample& sample) {
   for (const int leg : kUnitreeLegs) {
     const auto i = static_cast<std::size_t>(leg);
     const int noise = sample.number % 7;
-    out.put(static_cast<std::int16_t>(kOffset[i] + noise + (sample.contact[i] ? kGain[i] : 0)));
+    const int load = kOffset[i] + noise + (sample.contact[i] ? kGain[i] : 0);
+    out.put(static_cast<std::int16_t>(sample.has_foot_sensors ? load : 0));
   }
   fill<std::int16_t>(out, 4);
 }

@@ -22,6 +22,8 @@ struct RobotSample {
   JointVector angles = JointVector::Zero();  ///< FL, FR, RL, RR [rad]
   JointVector rates = JointVector::Zero();   ///< [rad/s]
   std::array<bool, kLegCount> contact{};
+  bool has_foot_sensors = true;
+  std::array<float, 4> quaternion = {1.0F, 0.0F, 0.0F, 0.0F};  ///< as the message has it
   std::array<Eigen::Vector3d, kLegCount> feet{};         ///< in the base [m]
   std::array<Eigen::Vector3d, kLegCount> foot_speeds{};  ///< in the base [m/s]
 };

@@ -132,6 +132,37 @@ TEST_F(RobotStates, UnitreeStatesWithJointsAreTheWalk) {
   }
 }
 
+TEST_F(RobotStates, WithoutSensorsInTheFeetTheTorquesOfTheKneesServe) {
+  const Trot trot = {.rate = 0.3};
+  RobotMessage message = test::go1_low_state();
+  message.encode = [encode = message.encode](RobotSample sample) {
+    sample.has_foot_sensors = false;
+    return encode(sample);
+  };
+  EXPECT_TRUE(walk(message, trot)
+                  .noted("the loads are always 0, as without sensors in the feet; take the torques "
+                         "of the knees: set recording.contacts_field=motorState[].tauEst"));
+  RecordingConfig config = without_lidar();
+  config.contacts_field = "motorState[].tauEst";
+  const Recording read = walk(message, trot, 1, false, config);
+  expect_walk(read, trot, 2 * kMillisecond);
+  EXPECT_TRUE(read.noted("contacts begin/end at 'motorState[].tauEst'"));
+}
+
+TEST_F(RobotStates, AQuaternionThatBeginsWithXIsNoted) {
+  const auto noted = [&](const std::array<float, 4>& quaternion) {
+    RobotMessage message = test::go1_low_state();
+    message.encode = [encode = message.encode, quaternion](RobotSample sample) {
+      sample.quaternion = quaternion;
+      return encode(sample);
+    };
+    return walk(message, {}).noted("as where the quaternion begins with x in place of w");
+  };
+  const float c = std::cos(0.3F), s = std::sin(0.3F);  // yaw of 0.6 rad
+  EXPECT_TRUE(noted({0.0F, 0.0F, s, c}));
+  EXPECT_FALSE(noted({c, 0.0F, 0.0F, s}));
+}
+
 TEST_F(RobotStates, FeetOfAUnitreeStateWithoutJointsAreTheWalk) {
   const Trot trot = {.rate = 0.3};
   const Recording read = walk(test::feet_high_state(), trot);
@@ -218,6 +249,8 @@ TEST_F(RobotStates, FeetOfASpotAreDifferencedWithinTheirContacts) {
     EXPECT_LT((leg.linear_velocity - Eigen::Vector3d(Trot::kSpeed, 0.0, 0.0)).norm(), 1e-9);
   }
   EXPECT_TRUE(read.noted("spot_msgs/FootStateArray has no stamp: record times are used"));
+  EXPECT_FALSE(read.noted("lengths of the legs")) << "they do not matter";
+  EXPECT_FALSE(read.noted("feet lie"));
 }
 
 TEST_F(RobotStates, AStateWithoutTheKnownFieldsIsNoState) {
@@ -267,7 +300,7 @@ TEST(RobotStateTable, EachRowHasWhatLegOdometryNeeds) {
   for (const StateLayout& state : robot_states()) {
     SCOPED_TRACE(state.type);
     EXPECT_TRUE(state.has_joints() || state.has_feet());
-    EXPECT_FALSE(state.contacts.empty());
+    EXPECT_EQ(state.contacts.empty(), state.type == kFootPlaces) << "on a topic of their own";
     EXPECT_EQ(std::set<int>(state.legs.begin(), state.legs.end()).size(), std::size_t{kLegCount});
     EXPECT_EQ(state.geometry == nullptr && state.biped == nullptr, state.robot.empty());
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "recordings/stream/decided_start.hpp"
+#include "recordings/source/decided_start.hpp"
 
 #include <algorithm>
 
