@@ -14,7 +14,7 @@ namespace aims {
 inline constexpr double kLegScaleWalk = 1e-3;
 inline constexpr double kLegBiasWalk = 1e-4;
 
-/// Initial deviation of the bias [m/s] (docs/decisions.md#what-a-leg-sample-is-worth).
+/// Initial deviation of the bias [m/s]: the mean error along the way of a robot that does not slip.
 inline constexpr double kLegBiasSigma = 0.01;
 
 /// Deviation of the scale of legs that are measured foot by foot [-]
