@@ -27,7 +27,7 @@ struct CompareArguments {
 };
 
 /// Of results that differ on too few common seeds, the case with the fewest: "level_5, aims_d: 3
-/// common seeds"; none where no case has too few and differs.
+/// pairs of runs"; none where no case has too few and differs.
 std::optional<std::string> too_few_seeds(const Comparison& comparison) {
   const ScoreChange* fewest = nullptr;
   for (const ScoreChange& each : comparison.changes) {
@@ -36,8 +36,8 @@ std::optional<std::string> too_few_seeds(const Comparison& comparison) {
     if (fewest == nullptr || each.pairs < fewest->pairs) fewest = &each;
   }
   if (fewest == nullptr) return std::nullopt;
-  return fmt::format("{}, {}: {} common seed{}", fewest->scenario, fewest->estimator, fewest->pairs,
-                     fewest->pairs == 1 ? "" : "s");
+  return fmt::format("{}, {}: {} pair{} of runs", fewest->scenario, fewest->estimator,
+                     fewest->pairs, fewest->pairs == 1 ? "" : "s");
 }
 
 void print_comparison(const Comparison& comparison) {

@@ -22,6 +22,7 @@ constexpr double kLeastCorrelation = 0.9;
 constexpr double kLeastLead = 0.05;       ///< in correlation, over other offsets
 constexpr double kLeastDeviation = 0.02;  ///< of the speeds [m/s]
 constexpr double kLeastOffset = 0.2;      ///< of a hint [s]
+constexpr double kCommon = 0.9;           ///< of the shorter one at the offset: one walk, not two
 constexpr double kExplained = 0.5;        ///< of what the speeds lack to a correlation of 1
 
 /// The mean speed over `window` from that time on [m/s]; none where the poses do not cover it.
@@ -151,9 +152,16 @@ std::optional<MotionOffset> motion_offset(const Trajectory& estimate, const Traj
 std::optional<std::string> clock_offset_hint(const Trajectory& estimate, const Trajectory& truth) {
   const auto found = motion_offset(estimate, truth);
   if (!found || std::abs(found->seconds) < kLeastOffset) return std::nullopt;
-  const ValidPart poses(estimate), true_poses(truth);
-  const double as_given = correlation_of(speeds_of(poses.poses(), kGrid),
-                                         poses.poses().front().stamp, true_poses.poses(), 0.0);
+  const ValidPart valid_estimate(estimate), valid_truth(truth);
+  const Trajectory &poses = valid_estimate.poses(), &true_poses = valid_truth.poses();
+  const Time first = poses.front().stamp;
+  const Duration shift = from_seconds(found->seconds);
+  const Duration common = std::min(poses.back().stamp + shift, true_poses.back().stamp) -
+                          std::max(first + shift, true_poses.front().stamp);
+  const Duration shorter =
+      std::min(poses.back().stamp - first, true_poses.back().stamp - true_poses.front().stamp);
+  if (to_seconds(common) < kCommon * to_seconds(shorter)) return std::nullopt;
+  const double as_given = correlation_of(speeds_of(poses, kGrid), first, true_poses, 0.0);
   if (1.0 - found->correlation > kExplained * (1.0 - as_given)) return std::nullopt;
   return fmt::format(
       "likely a clock offset: with --time-offset {:.2f} it stands and walks when the truth does "

@@ -35,6 +35,11 @@ bool any_partial(std::span<const RunRecord> runs, const std::string& estimator) 
                              [&](const RunRecord& run) { return is_partial(run, estimator); });
 }
 
+std::size_t failed_runs(std::span<const RunRecord> runs, const std::string& estimator) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      runs, [&](const RunRecord& run) { return is_valid_run(run) && failed_in(run, estimator); }));
+}
+
 std::vector<std::string> partial_in(const RunRecord& record) {
   std::vector<std::string> names = estimators_in({&record, 1});
   std::erase_if(names, [&](const std::string& name) { return !is_partial(record, name); });

@@ -32,6 +32,9 @@ bool any_partial(std::span<const RunRecord> runs, const std::string& estimator);
 /// The estimators of a record of which the estimate lacks a part, or that failed.
 std::vector<std::string> partial_in(const RunRecord& record);
 
+/// Valid runs on which the estimator failed.
+std::size_t failed_runs(std::span<const RunRecord> runs, const std::string& estimator);
+
 /// The first valid run in which that estimator has scores, of any with an empty name: it has all
 /// segments of the route. Null without one.
 const RunRecord* example_run(std::span<const RunRecord> runs, const std::string& estimator = "");

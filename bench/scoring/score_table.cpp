@@ -71,12 +71,6 @@ std::vector<Column> columns_of(const RunRecord& run, bool several) {
   return columns;
 }
 
-/// Valid runs on which the estimator failed.
-std::size_t failed_runs(std::span<const RunRecord> runs, const std::string& estimator) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      runs, [&](const RunRecord& run) { return is_valid_run(run) && failed_in(run, estimator); }));
-}
-
 std::vector<Row> rows_of(std::span<const RunRecord> runs) {
   std::vector<Row> rows;
   for (const std::string& name : estimators_in(runs)) {

@@ -38,6 +38,7 @@ GroupScores scores_of(std::span<const RunRecord> runs, const std::string& estima
   const SuccessRate rate = success_rate(runs, estimator);
   scores.runs = rate.runs;
   scores.successes = rate.count;
+  scores.failed = failed_runs(runs, estimator);
   scores.partial = any_partial(runs, estimator);
   scores.strict = success_rate(runs, estimator, kStrictSuccessKey);
   for (const Score& score : headline_scores()) {
@@ -151,8 +152,10 @@ TextTable groups_table(const std::vector<DrawnGroup>& groups) {
   for (const Score& score : headline_scores()) table.header.push_back(title_with_unit(score));
   for (const DrawnGroup& group : groups) {
     for (const GroupScores& each : group.estimators) {
+      const std::string failed =
+          each.failed > 0 ? fmt::format(", {} failed", each.failed) : std::string();
       std::vector<std::string> row = {group.scenario, group.label, each.estimator,
-                                      SuccessRate{each.successes, each.runs}.text(),
+                                      SuccessRate{each.successes, each.runs}.text() + failed,
                                       each.strict.text()};
       for (std::size_t i = 0; i < kHeadlineCount; ++i) {
         row.push_back(
@@ -177,9 +180,9 @@ std::string groups_legend(const std::vector<DrawnGroup>& groups) {
 }
 
 CsvTable groups_csv(const std::vector<DrawnGroup>& groups) {
-  std::vector<std::string> header = {"scenario",  "group",  "low",       "high",
-                                     "estimator", "runs",   "successes", "successes_1_percent",
-                                     "partial",   "invalid"};
+  std::vector<std::string> header = {"scenario",  "group",   "low",       "high",
+                                     "estimator", "runs",    "successes", "successes_1_percent",
+                                     "failed",    "partial", "invalid"};
   for (const Score& score : headline_scores()) {
     header.push_back(std::string(score.key) + ".median");
   }
@@ -194,6 +197,7 @@ CsvTable groups_csv(const std::vector<DrawnGroup>& groups) {
           .add(static_cast<std::int64_t>(each.runs))
           .add(static_cast<std::int64_t>(each.successes))
           .add(static_cast<std::int64_t>(each.strict.count))
+          .add(static_cast<std::int64_t>(each.failed))
           .add(static_cast<std::int64_t>(each.partial))
           .add(static_cast<std::int64_t>(group.invalid));
       for (const auto& median : each.medians) table.add(median);
@@ -212,6 +216,7 @@ Json groups_json(const std::vector<DrawnGroup>& groups, const std::string& key,
     for (const GroupScores& each : group.estimators) {
       Json& entry = estimators[each.estimator] =
           success_json({each.successes, each.runs}, each.strict);
+      entry["failed"] = each.failed;
       entry["partial"] = each.partial;
       entry["median"] = Json::object();
       for (std::size_t i = 0; i < kHeadlineCount; ++i) {

@@ -23,6 +23,7 @@ struct GroupScores {
   std::string estimator;
   std::size_t runs = 0;  ///< valid ones, with those on which it failed
   std::size_t successes = 0;
+  std::size_t failed = 0;  ///< of the runs
   bool partial = false;                        ///< of some run the estimate lacks a part
   SuccessRate strict;                          ///< within 1 %
   std::vector<std::optional<double>> medians;  ///< in the order of `headline_scores()`

@@ -10,6 +10,7 @@
 
 #include "bench/scoring/score_statistics.hpp"
 #include "bench/tuning/effect.hpp"
+#include "bench/tuning/held_out.hpp"
 #include "bench/tuning/values_text.hpp"
 
 namespace aims {
@@ -102,6 +103,13 @@ std::string text_of(const BestPoint& best, const ResponseTable& table) {
 bool is_resolved(const BestPoint& best, const Effect& effect) {
   const bool gains = best.gain_interval.low && *best.gain_interval.low > 0.0;
   return effect.tells_best() && (best.is_default() || best.defaults_diverged || gains);
+}
+
+std::string unresolved_text(const BestPoint& best, const Effect& effect) {
+  if (is_resolved(best, effect) || !effect.tells_best()) return "";
+  if (!best.gain_interval.low) return "; the gain over the defaults has no interval";
+  return fmt::format("; points differ, but the gain over the defaults, {} to {}, may be none",
+                     change_text(*best.gain_interval.low), change_text(*best.gain_interval.high));
 }
 
 std::string standing_of(const BestPoint& best, const Effect& effect) {

@@ -38,6 +38,10 @@ struct BestPoint {
 /// with these diverged, the interval of its gain over them excludes zero.
 bool is_resolved(const BestPoint& best, const Effect& effect);
 
+/// "; points differ, but the gain over the defaults, 7.9 % worse to 13 % better, may be none" where
+/// the points tell a best one and its gain is not resolved; else empty.
+std::string unresolved_text(const BestPoint& best, const Effect& effect);
+
 /// What the point is: of the defaults "least: keep the defaults"; else "best" where it is resolved,
 /// "least, not resolved" where not, "least, too little to matter" of a gain that comparisons call
 /// small.

@@ -242,8 +242,8 @@ std::string response_markdown(const ResponseTable& table, const Objective& objec
                                : Result<Sensitivity>(failure(why_no_indices_of_one(effect)));
   std::string text =
       fmt::format("Objective: {}.\n{}", text_of(objective), best_markdown(table, objective, *best));
-  text += fmt::format("{}: {}.\n{}", heading_of(standing_of(*best, effect)), text_of(*best, table),
-                      gain_markdown(*best));
+  text += fmt::format("{}: {}{}.\n{}", heading_of(standing_of(*best, effect)),
+                      text_of(*best, table), unresolved_text(*best, effect), gain_markdown(*best));
   for (const std::string& line : left_out_lines(table)) text += fmt::format("- {}\n", line);
   for (const std::string& line : failed_lines(table)) text += fmt::format("- {}\n", line);
   const std::size_t seeds = seeds_of(table).size();

@@ -265,7 +265,9 @@ Result<void> check_same_defaults(std::span<const std::shared_ptr<const Scenario>
     for (const auto& scenario : scenarios.subspan(1)) {
       const auto other = default_text(range, *scenario, estimators);
       if (!first || !other || *first == *other) continue;
-      const std::string key = range.of_estimator ? "estimators.NAME." + range.key : full_key(range);
+      const std::string key =
+          range.of_estimator ? fmt::format("estimators.{}.{}", estimators.front().name, range.key)
+                             : full_key(range);
       const std::string hint = fmt::format(", e.g. by --set {}={}", key, *first);
       return failure(fmt::format(
           "{}: {} is {} there and {} in {}; expected the same default values in all scenarios{}",
@@ -321,12 +323,15 @@ Result<std::vector<Job>> plan_jobs(const SweepPlan& plan, const fs::path& folder
   if (auto different = check_different(*estimators, *ranges); !different) {
     return tl::unexpected(different.error());
   }
+  if (auto same = check_same_defaults(*scenarios, *ranges, *estimators); !same) {
+    return tl::unexpected(same.error());
+  }
+  // Reports take the defaults of an estimator from the program and the plan.
   auto plain = std::make_shared<Scenario>(*scenarios->front());
   plain->name = "the program";
   plain->estimators = {};
   if (auto set = set_estimators(plan, plain->estimators); !set) return tl::unexpected(set.error());
-  Scenarios compared = {std::move(plain)};
-  compared.insert(compared.end(), scenarios->begin(), scenarios->end());
+  const Scenarios compared = {std::move(plain), scenarios->front()};
   if (auto same = check_same_defaults(compared, *ranges, *estimators); !same) {
     return tl::unexpected(same.error());
   }

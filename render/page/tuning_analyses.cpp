@@ -206,6 +206,7 @@ Json analysis_json(const ResponseTable& table, const Objective& objective, PageD
   const Effect effect = effect_of(table, objective);
   json["effect"] = text_of(effect);
   json["standing"] = standing_of(*best, effect);
+  json["unresolved"] = unresolved_text(*best, effect);
   const auto sensitivity = sensitivity_of(table, objective);
   if (table.ranges.size() == 1) {
     json["why_no_sensitivity"] = why_no_indices_of_one(effect);

@@ -83,6 +83,21 @@ TEST(ClockOffsetHint, IsNotGivenOfAWrongEstimate) {
   EXPECT_FALSE(clock_offset_hint(lost, truth));
 }
 
+// Of two walks one that is lost looks like the other one, half of the time later.
+TEST(ClockOffsetHint, IsNotGivenWhereOneOfTwoWalksIsLost) {
+  Trajectory truth, lost;
+  double x = 0.0, short_x = 0.0;
+  for (int i = 0; i < 1340; ++i) {
+    const double t = 0.1 * i;
+    const bool out = t > 5.0 && t<65.0, back = t> 69.0 && t < 129.0;
+    x += out ? 0.07 : back ? -0.07 : 0.0;
+    short_x += out ? 0.07 : back ? -0.007 : 0.0;
+    truth.push_back({from_seconds(t), {Eigen::Quaterniond::Identity(), {x, 0.0, 0.0}}});
+    lost.push_back({from_seconds(t), {Eigen::Quaterniond::Identity(), {short_x, 0.0, 0.0}}});
+  }
+  EXPECT_EQ(clock_offset_hint(lost, truth).value_or(""), "");
+}
+
 TEST(MotionOffset, OfAWalkWithoutAStopIsNotKnown) {
   EXPECT_FALSE(motion_offset(walk(1.5, 60.0, 1000.0, false), walk(0.0, 60.0, 0.0, false)));
   EXPECT_FALSE(motion_offset({}, walk(0.0, 60.0, 0.0)));

@@ -122,7 +122,7 @@ TEST(DrawnGroups, CountSuccessesAndMarkEstimatesThatLackAPart) {
   EXPECT_NE(read_file(folder.path() / "groups.md")->find("part: over the parts"),
             std::string::npos);
   const std::string csv = *read_file(folder.path() / "groups.csv");
-  EXPECT_NE(csv.find("successes_1_percent,partial,invalid"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("successes_1_percent,failed,partial,invalid"), std::string::npos) << csv;
   const Json json = groups_json(*groups, "people", "out/random");
   for (const std::size_t i : {0U, 1U}) {
     EXPECT_EQ(json["groups"][i]["estimators"]["aims"]["partial"], i == 1);

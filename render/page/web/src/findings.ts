@@ -18,7 +18,7 @@ export interface Finding {
   /** Heading-aligned ATE [m]. */
   ate: number | null;
   /** Where it is lost for good; null if it is not. */
-  loss: { from: number; distance: number; most: number; early: boolean } | null;
+  loss: { from: number; distance: number; most: number; scaled: boolean } | null;
   /** Largest error in the direction that fails where the length does not show it [m]. */
   aside: { direction: "height" | "sideways"; most: number } | null;
   /** What constrained the weak axis there: median of the equivalent returns; null: not known. */
@@ -27,6 +27,8 @@ export interface Finding {
   missing?: string | null;
   /** Of several runs, on how many it fails: "2 of 3 seeds". */
   fails?: string | null;
+  /** Of several runs, on how many it succeeds. */
+  successes?: number;
   /** Healthy all along, as it says itself. */
   healthy: boolean;
 }
@@ -88,7 +90,12 @@ function partial(list: Finding[]): Finding[] {
 function noneText(list: Finding[], what: string): string {
   if (partial(list).length > 0) return `No estimator with poses of every run keeps ${what} within ${kWrong} %`;
   if (!list.some((each) => each.percent !== null && each.percent <= kWrong)) return `No estimator keeps ${what} within ${kWrong} %`;
-  return list.some((each) => each.success) ? `No estimator that succeeds keeps ${what} within ${kWrong} %` : "No estimator succeeds";
+  return list.some((each) => each.success) ? `No estimator that succeeds keeps ${what} within ${kWrong} %` : noSuccess(list, "No estimator succeeds");
+}
+
+/** Of one run `text`; over several, that none succeeds on most. */
+function noSuccess(list: Finding[], text: string): string {
+  return list.some((each) => each.fails) ? "No estimator succeeds on more than half of the seeds" : text;
 }
 
 /** What constrains the axis where an estimate is lost. */
@@ -115,10 +122,11 @@ function lossText(each: Finding, route: Route): string {
   if (!each.success && each.aside && (percent ?? 0) <= kSuccess) return asideText(each, unnoticed);
   if (!each.success && each.fails && percent !== null)
     return `${each.name} fails on ${each.fails}, its length ${percentText(percent)} off in the median`;
-  if (percent !== null && (!loss || loss.early)) {
+  if (percent !== null && (!loss || loss.scaled)) {
     const side = signed === null ? "off" : signed < 0 ? "short" : "too long";
     const when = each.worst === null ? "throughout" : "in the median";
-    return `${each.name} is ${percentText(percent)} ${side} ${when}${unnoticed}`;
+    const fails = each.fails ? ` and ${each.missing ?? `fails on ${each.fails}`}` : "";
+    return `${each.name} is ${percentText(percent)} ${side} ${when}${fails}${unnoticed}`;
   }
   if (!loss) return `${each.name} fails`;
   const verb = signed !== null && signed < 0 ? "loses" : "strays by";
@@ -129,7 +137,7 @@ function lossText(each: Finding, route: Route): string {
 /** Those that lose the length, the most telling first: failed before inexact, lost at a place before wrong throughout. */
 function losers(list: Finding[]): Finding[] {
   const wrong = list.filter((each) => !each.success || (each.percent ?? 0) > kWrong);
-  const rank = (each: Finding) => (each.success ? 2 : 0) + (each.loss && !each.loss.early ? 0 : 1);
+  const rank = (each: Finding) => (each.success ? 2 : 0) + (each.loss && !each.loss.scaled ? 0 : 1);
   return wrong.sort((a, b) => rank(a) - rank(b) || (b.percent ?? 0) - (a.percent ?? 0));
 }
 
@@ -150,13 +158,15 @@ export function finding(list: Finding[], route: Route): string {
   const shown = bad.slice(0, 2).map((each) => lossText(each, route));
   shown.push(...moreText(bad.slice(2), bad.slice(0, 2)));
   shown.push(...good.filter((each) => each.fails).map((each) => `${each.name} ${each.missing ?? `fails on ${each.fails}`}`));
-  shown.push(...partial(list).map((each) => `${each.name} ${each.missing}`));
+  shown.push(...partial(list).map((each) => `${each.name} ${each.missing} and succeeds on ${each.successes}`));
   const loss = shown.length > 0 ? `; ${shown.join("; ")}` : "";
   if (good.length === 0) return `${noneText(list, what)}${loss}.`;
   const limit = Math.max(kAlike, kFactor * good[0]!.percent!);
-  const best = good.filter((each) => each.percent! <= limit);
+  const near = good.filter((each) => each.percent! <= limit);
+  const worstLimit = Math.max(kAlike, kFactor * Math.min(...near.map((each) => each.worst ?? 0)));
+  const best = near.filter((each) => (each.worst ?? 0) <= worstLimit);
   const rest = good.length > best.length
-    ? `, ${listed(good.slice(best.length, best.length + 3).map((each) => `${each.name} within ${mostText([each])}`))}` : "";
+    ? `, ${listed(good.filter((each) => !best.includes(each)).slice(0, 3).map((each) => `${each.name} within ${mostText([each])}`))}` : "";
   const names = listed(best.map((each) => each.name));
   if (shown.length === 0 && best.length === list.length && list.length > 1 && worstAlike(best)) {
     const runs = best[0]!.worst === null ? "this run does" : "these runs do";
@@ -171,9 +181,9 @@ function withoutLengths(list: Finding[]): string {
   const failed = list.filter((each) => !each.success);
   const texts = failed.slice(0, 2).map((each) => each.missing ? `${each.name} ${each.missing}` : each.aside ? asideText(each, "") : `${each.name} fails`);
   texts.push(...moreText(failed.slice(2), failed.slice(0, 2)));
-  texts.push(...partial(list).map((each) => `${each.name} ${each.missing}`));
+  texts.push(...partial(list).map((each) => `${each.name} ${each.missing} and succeeds on ${each.successes}`));
   const loss = texts.length > 0 ? `; ${texts.join("; ")}` : "";
   if (good.length === 0 && texts.length === 0) return "";
-  if (good.length === 0) return partial(list).length > 0 ? `${texts.join("; ")}.` : `No estimator stays near the truth from its start on${loss}.`;
+  if (good.length === 0) return partial(list).length > 0 ? `${texts.join("; ")}.` : `${noSuccess(list, "No estimator stays near the truth from its start on")}${loss}.`;
   return `${good[0]!.name} stays ${list.length > 1 ? "nearest" : "near"} to the truth, ATE ${formatNumber(good[0]!.ate, 2)} m${loss}.`;
 }

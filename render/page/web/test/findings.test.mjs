@@ -84,15 +84,27 @@ test("an error of the scale is there throughout, whatever its size and however l
   }
 });
 
+test("a loss in a part is not throughout", () => {
+  const data = walk({ a: (x) => [x < 10 ? 0.7 * x : x - 3, 0], b: (x) => [(x < 20 ? 0.6 : 1) * x - (x < 20 ? 0 : 8), 0] });
+  const { list, route } = page.findingsOf(data);
+  assert.doesNotMatch(page.finding(list, route), /throughout/);
+  const noisy = walk({ a: (x) => [0.98 * x, 0.05 * Math.sin(97 * x)] });
+  assert.match(page.finding(...Object.values(page.findingsOf(noisy))), /a is 2\.0 % short throughout/);
+});
+
 test("over seeds, failed runs and parts of runs are named and leave the successes", () => {
   const each = { name: "z", success: true, percent: 0.001, worst: 0.002, signed: null, ate: 0.01, loss: null, aside: null, returns: null, healthy: false };
   const route = { corridor: true, length: Infinity };
   assert.equal(page.finding([{ ...each, fails: "1 of 6 seeds", missing: "failed to run on 1 of 6 seeds" }], route),
     "z keeps the corridor's length within 0.0010 % in the median and 0.0020 % at worst; z failed to run on 1 of 6 seeds.");
-  const part = { ...each, name: "m", percent: null, ate: null, fails: "1 of 6 seeds", missing: "has a gap on 1 of 6 seeds" };
-  assert.equal(page.finding([part], route), "m has a gap on 1 of 6 seeds.");
+  const part = { ...each, name: "m", percent: null, ate: null, fails: "1 of 6 seeds", missing: "has a gap on 1 of 6 seeds", successes: 5 };
+  assert.equal(page.finding([part], route), "m has a gap on 1 of 6 seeds and succeeds on 5.");
   assert.equal(page.finding([part, { ...each, percent: 2, worst: 3, fails: null }], route),
-    "No estimator with poses of every run keeps the corridor's length within 1 %; z is 2.0 % off in the median; m has a gap on 1 of 6 seeds.");
+    "No estimator with poses of every run keeps the corridor's length within 1 %; z is 2.0 % off in the median; m has a gap on 1 of 6 seeds and succeeds on 5.");
+  assert.match(page.finding([{ ...each, percent: 3, worst: 3, fails: "1 of 6 seeds", missing: "failed to run on 1 of 6 seeds" }], route),
+    /z is 3\.0 % off in the median and failed to run on 1 of 6 seeds\.$/);
+  assert.match(page.finding([{ ...part, success: false, missing: "failed to run on 5 of 6 seeds" }], route),
+    /^No estimator succeeds on more than half of the seeds; m failed to run on 5 of 6 seeds\.$/);
   const off = { ...each, name: "o", success: false, percent: 19, worst: 20, fails: "3 of 3 seeds" };
   assert.match(page.finding([off], route), /o fails on 3 of 3 seeds, its length 19 % off in the median/);
 });
@@ -214,7 +226,7 @@ test("over several seeds the sentence names median and worst, and separates by e
   assert.equal(page.finding([a, { ...one, name: "b", percent: 0.2, worst: 0.3 }], route),
     "a and b both keep the corridor's length within 0.20 % in the median and 0.30 % at worst: these runs do not separate them by it.");
   assert.equal(page.finding([a, { ...one, name: "b", percent: 0.2, worst: 0.62 }], route),
-    "a and b keep the corridor's length within 0.20 % in the median and 0.62 % at worst.");
+    "a keeps the corridor's length within 0.12 % in the median and 0.21 % at worst, b within 0.20 % in the median and 0.62 % at worst.");
   assert.equal(page.finding([{ ...a, name: "b", fails: "2 of 5 seeds" }, { ...a, percent: 0.2 }], route),
     "a and b keep the corridor's length within 0.20 % in the median and 0.21 % at worst; b fails on 2 of 5 seeds.");
 });

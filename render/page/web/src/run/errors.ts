@@ -144,10 +144,11 @@ export function lossOf(track: ErrorTrack): Loss | null {
   return { from: track.t[from]!, distance: track.distance[from]!, most: mostOf(track, from) };
 }
 
-/** An error of the scale alone is within this part of itself everywhere. */
+/** An error of the scale alone is within this part of itself in each of so many parts of the way. */
 const kSteady = 0.25;
+const kBlocks = 8;
 
-/** Whether the distance from the start is wrong by one factor all along: beyond a quarter of the way, at all samples. */
+/** Whether the distance from the start is wrong by one factor all along: beyond a quarter of the way, by the median of each part. */
 export function isScaled(path: Path, track: ErrorTrack): boolean {
   const [start, first] = [truthAt(path, track.t[0]!), track.p.slice(0, 3)];
   if (!start) return false;
@@ -158,8 +159,12 @@ export function isScaled(path: Path, track: ErrorTrack): boolean {
   });
   const least = 0.25 * Math.max(...far.map((each) => each.truth));
   const errors = far.filter((each) => each.truth > least && Number.isFinite(each.estimate)).map((each) => each.estimate / each.truth - 1);
-  const mean = errors.reduce((sum, each) => sum + each, 0) / errors.length;
-  return errors.length >= 10 && errors.every((each) => Math.abs(each - mean) <= kSteady * Math.abs(mean));
+  if (errors.length < 2 * kBlocks) return false;
+  const middle = (list: number[]) => [...list].sort((a, b) => a - b)[list.length >> 1]!;
+  const blocks = Array.from({ length: kBlocks }, (_, i) =>
+    middle(errors.slice((i * errors.length) / kBlocks, ((i + 1) * errors.length) / kBlocks)));
+  const usual = middle(errors);
+  return blocks.every((each) => Math.abs(each - usual) <= kSteady * Math.abs(usual));
 }
 
 /** The largest error from a sample on [m]. */

@@ -6,9 +6,6 @@ import type { Finding, Route } from "../findings";
 import { isNumber } from "../format";
 import { errorTrack, isScaled, lossOf, missingText, truePath, type Path } from "./errors";
 
-/** A loss that begins within this part of the route is there throughout. */
-const kEarly = 0.15;
-
 /** Mean of the signed errors of the segments [%]. */
 function signedPercent(scores: unknown): number | null {
   const list = Object.values(own<object>(scores, "m_list_signed_percent") ?? {}).filter(isNumber);
@@ -41,7 +38,6 @@ function findingOf(data: RunPayload, path: Path | null, name: string, scores: un
   const estimator = data.estimators.find((item) => item.name === name);
   const track = path && estimator ? errorTrack(path, estimator, "heading") : null;
   const loss = track ? lossOf(track) : null;
-  const length = path?.travelled[path.travelled.length - 1] ?? 0;
   const numberAt = (...keys: string[]) => {
     const value = at(scores, ...keys);
     return isNumber(value) ? value : null;
@@ -53,7 +49,7 @@ function findingOf(data: RunPayload, path: Path | null, name: string, scores: un
     worst: null,
     signed: signedPercent(scores),
     ate: numberAt("ate_yaw_m"),
-    loss: loss ? { from: loss.from, distance: loss.distance, most: loss.most, early: loss.distance < kEarly * length || isScaled(path!, track!) } : null,
+    loss: loss ? { from: loss.from, distance: loss.distance, most: loss.most, scaled: isScaled(path!, track!) } : null,
     aside: asideOf(scores),
     returns: loss ? returnsAfter(data, loss.from) : null,
     missing: missingText(data, name),

@@ -11,12 +11,13 @@ import { Panel, type PanelSpec } from "./panel";
 import type { Backdrop } from "./panel_paint";
 import { planView } from "./plan";
 import { dashed, kLevels } from "./panels";
+import { valueAt } from "./series";
 import { nearestIndex, type Store } from "./store";
 
 /** The error axis begins where all but 5 % of the errors are above it, within these limits; no error at all is this [m]. */
 const kLeast = [0.001, 0.01] as const;
 const kSmallest = 1e-4;
-const kSamples = 500;
+const kSamples = 2000;
 const kHeight = 270;
 
 /** A box per estimator: is it shown? */
@@ -121,7 +122,11 @@ class ErrorChart {
   }
 
   private show(distance: number, seconds: number): void {
-    this.panel?.showCursor(distance, `at ${formatFixed(seconds, 1)} s, ${formatFixed(distance, 1)} m`);
+    const valueOf = ({ label }: { label: string }) => {
+      const { t, error } = this.shown.find(({ name }) => name === label)!.track;
+      return valueAt({ times: Float32Array.from(t), values: Float32Array.from(error) }, seconds);
+    };
+    this.panel?.showCursor(distance, `at ${formatFixed(seconds, 1)} s, ${formatFixed(distance, 1)} m`, valueOf);
   }
 
   private showCursor(): void {

@@ -221,15 +221,17 @@ export class Panel {
     };
   }
 
-  /** Moves the line and shows the values there; `at`: where that is. */
-  showCursor(seconds: number, at = `at ${formatFixed(seconds, 1)} s`): void {
+  /** Moves the line and shows the values there; `at`: where that is, `valueOf`: of a curve over another axis than time. */
+  showCursor(
+    seconds: number, at = `at ${formatFixed(seconds, 1)} s`, valueOf = (curve: Curve) => valueAt(curve.track, seconds),
+  ): void {
     const position = this.plot.valToPos(seconds, "x");
     const inside = position >= -1 && position <= this.plot.bbox.width / uPlot.pxRatio + 1;
     this.line.hidden = !inside;
     this.at.textContent = at;
     if (inside) this.line.style.transform = `translateX(${position.toFixed(2)}px)`;
     for (const { curve, shown } of this.values) {
-      const value = valueAt(curve.track, seconds);
+      const value = valueOf(curve);
       shown.textContent = formatNumber(value);
       shown.dataset["value"] = String(value);
     }

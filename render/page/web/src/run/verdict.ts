@@ -78,9 +78,9 @@ function expectationSentence(data: RunPayload): Sentence | null {
 
 function successSentence(data: RunPayload): Sentence | null {
   const scores = Object.entries(own<object>(data.scores, "estimators") ?? {});
-  if (scores.length === 0) return null;
   const start = data.t0_s ?? 0;
-  const unscored = failuresOf(data).filter(({ estimator }) => !scores.some(([name]) => name === estimator)).length;
+  const unscored = failuresOf(data).filter(({ estimator }) => !scores.some(([name]) => name === estimator));
+  if (scores.length + unscored.length === 0 || !data.truth) return null;
   const failed = scores.filter(([, own]) => at(own, "success") !== true);
   const reasons = failed.map(([name, own]) => {
     const divergedAt = at(own, "diverged_at_s");
@@ -89,11 +89,12 @@ function successSentence(data: RunPayload): Sentence | null {
     if (missing) return `${name} ${missing}`;
     return isNumber(divergedAt) ? `${name} diverged ${formatFixed(divergedAt - start, 0)} s after the start` : `${name} failed`;
   });
+  reasons.push(...unscored.map(({ estimator }) => `${estimator} failed to run`));
   return {
     mood: "plain",
     lead: "",
-    rest: `${scores.length - failed.length} of ${scores.length + unscored} estimators succeeded. ` +
-       (failed.length > 0 ? `${reasons.join(", ")}.` : ""),
+    rest: `${scores.length - failed.length} of ${scores.length + unscored.length} estimators succeeded. ` +
+       (reasons.length > 0 ? `${reasons.join(", ")}.` : ""),
   };
 }
 

@@ -149,6 +149,7 @@ function findingOf(data: SuitePayload, scenario: SuiteScenario, name: string): F
     name, success: summary.successes > summary.runs / 2, percent: whole ? number("m_list_percent.all", "median") : null,
     worst: summary.runs > 1 ? number("m_list_percent.all", "worst") : null, signed: null,
     ate: whole ? number("ate_yaw_m", "median") : null, loss: null, aside: asideOf(number), returns: null, healthy: false,
+    successes: summary.successes,
     fails: failures > 0 ? `${failures} of ${summary.runs} seeds` : null,
     missing: missingText(data, scenario.name, name, summary.runs),
   };

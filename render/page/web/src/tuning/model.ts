@@ -105,6 +105,8 @@ export interface Analysis {
   held_out: HeldOut | null;
   /** What the best point is: "best", "least: keep the defaults", "least, not resolved" or the like. */
   standing: string;
+  /** Why it is not resolved although points differ; empty else. */
+  unresolved?: string;
   sensitivity: Sensitivity | null;
   why_no_sensitivity?: string;
   curves: Slice[];

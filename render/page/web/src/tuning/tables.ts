@@ -33,7 +33,7 @@ function verdict({ text: values, is_default: keeps }: Best, analysis: Analysis, 
   }
   if (!tuned) {
     return h("p", { "data-standing": analysis.standing },
-      h("strong", {}, `${analysis.standing === "best" ? "Best values" : analysis.standing.replace("least", "Least objective")}: ${values}.`));
+      h("strong", {}, `${analysis.standing === "best" ? "Best values" : analysis.standing.replace("least", "Least objective")}: ${values}${analysis.unresolved ?? ""}.`));
   }
   const held = analysis.held_out ?? { verdict: "undecided", text: "not validated: these values were not run on the held-out sequences" };
   return h("p", { class: `verdict ${held.verdict.replaceAll(" ", "-")}`, "data-verdict": held.verdict },
