@@ -237,22 +237,38 @@ std::string fixed_text(EstimatorSpec spec, std::span<const ParameterRange> range
 
 namespace {
 
-/// The default of a range's key in a scenario, of these estimators the first that has the key.
+/// The default of a range's key in a scenario, of the estimator where it is one of its keys; none
+/// where that has no such key.
 std::optional<std::string> default_text(const ParameterRange& range, const Scenario& scenario,
-                                        std::span<const EstimatorSpec> estimators) {
-  if (!range.of_estimator) {
-    Scenario copy = scenario;
-    const Fields fields = fields_of(copy);
-    const Parameter* parameter = fields.find(full_key(range));
+                                        const EstimatorSpec& estimator) {
+  const auto text_in = [](const Fields& fields, const std::string& key) {
+    const Parameter* parameter = fields.find(key);
     return parameter == nullptr ? std::nullopt : std::optional(parameter->text());
+  };
+  if (range.of_estimator) {
+    const auto config = config_with(estimator, scenario.estimators);
+    return config ? text_in(fields_of(**config), range.key) : std::nullopt;
   }
-  for (const EstimatorSpec& spec : estimators) {
-    const auto config = config_with(spec, scenario.estimators);
-    if (!config) continue;
-    const Fields fields = fields_of(**config);
-    if (const Parameter* parameter = fields.find(range.key)) return parameter->text();
+  Scenario copy = scenario;
+  return text_in(fields_of(copy), full_key(range));
+}
+
+/// Error where the estimator has another default in a scenario than in the first one.
+Result<void> check_same_default(std::span<const std::shared_ptr<const Scenario>> scenarios,
+                                const ParameterRange& range, const EstimatorSpec& estimator) {
+  const auto first = default_text(range, *scenarios.front(), estimator);
+  for (const auto& scenario : scenarios.subspan(1)) {
+    const auto other = default_text(range, *scenario, estimator);
+    if (!first || !other || *first == *other) continue;
+    const std::string key = range.of_estimator
+                                ? fmt::format("estimators.{}.{}", estimator.name, range.key)
+                                : full_key(range);
+    return failure(fmt::format(
+        "{}: {} is {} there and {} in {}; expected the same default values in all scenarios, e.g. "
+        "by --set {}={}",
+        scenario->name, range.key, *other, *first, scenarios.front()->name, key, *first));
   }
-  return std::nullopt;
+  return {};
 }
 
 }  // namespace
@@ -261,17 +277,8 @@ Result<void> check_same_defaults(std::span<const std::shared_ptr<const Scenario>
                                  std::span<const ParameterRange> ranges,
                                  std::span<const EstimatorSpec> estimators) {
   for (const ParameterRange& range : ranges) {
-    const auto first = default_text(range, *scenarios.front(), estimators);
-    for (const auto& scenario : scenarios.subspan(1)) {
-      const auto other = default_text(range, *scenario, estimators);
-      if (!first || !other || *first == *other) continue;
-      const std::string key =
-          range.of_estimator ? fmt::format("estimators.{}.{}", estimators.front().name, range.key)
-                             : full_key(range);
-      const std::string hint = fmt::format(", e.g. by --set {}={}", key, *first);
-      return failure(fmt::format(
-          "{}: {} is {} there and {} in {}; expected the same default values in all scenarios{}",
-          scenario->name, range.key, *other, *first, scenarios.front()->name, hint));
+    for (const EstimatorSpec& estimator : estimators) {
+      if (auto same = check_same_default(scenarios, range, estimator); !same) return same;
     }
   }
   return {};

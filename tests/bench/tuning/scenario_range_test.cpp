@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <set>
 #include <string>
 #include <vector>
@@ -187,6 +188,26 @@ TEST(ScenarioRange, IsRefusedWhereScenariosHaveOtherDefaults) {
       << refused.error().message;
   plan.set = {"lidar.range_max=100"};
   EXPECT_TRUE(plan_jobs(plan, AIMS_SCENARIOS));
+}
+
+// Reports take an estimator's defaults from the program and the plan, not from a scenario.
+TEST(ScenarioRange, IsRefusedWhereAScenarioSetsTheEstimatorAnew) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "own.yaml";
+  std::ofstream(file) << "base: " AIMS_SCENARIOS
+                         "/severity/severity_3.yaml\nname: own\n"
+                         "estimators: {aims: {degeneracy: {eta: 6}}}\n";
+  SweepPlan plan;
+  plan.scenarios = {file.string()};
+  plan.estimators = {"b=aims+degeneracy.kappa=20", "aims"};
+  plan.params = {"degeneracy.eta=1:6:2"};
+  const auto refused = plan_jobs(plan, AIMS_SCENARIOS);
+  ASSERT_FALSE(refused);
+  EXPECT_TRUE(says(refused.error().message, "own: degeneracy.eta is 6 there and 3 in the program"))
+      << refused.error().message;
+  plan.set = {"estimators.aims.degeneracy.eta=6"};
+  const auto accepted = plan_jobs(plan, AIMS_SCENARIOS);
+  EXPECT_TRUE(accepted) << accepted.error().message;
 }
 
 }  // namespace
