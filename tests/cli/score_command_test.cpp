@@ -195,7 +195,8 @@ TEST_F(Score, ComparedOnOneSeedHasATableAndNoVerdict) {
   EXPECT_EQ(json::parse(stream)["schema"], "aims.compare/3");
   const Outcome gate = aims("study compare before after --fail-on-worse");
   EXPECT_EQ(gate.exit_code, 2) << "a gate that cannot fail is none";
-  expect_says(gate, {"expected at least 6 common seeds where results differ; after, mine: 1 pair of runs"});
+  expect_says(
+      gate, {"expected at least 6 common seeds where results differ; truth, mine: 1 pair of runs"});
 }
 
 TEST_F(Score, OnlyTheTruthIsCalledTruth) {
