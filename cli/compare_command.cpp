@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -39,18 +38,6 @@ std::optional<std::string> too_few_seeds(const Comparison& comparison) {
   if (fewest == nullptr) return std::nullopt;
   return fmt::format("{}, {}: {} pair{} of runs", fewest->scenario, fewest->estimator,
                      fewest->pairs, fewest->pairs == 1 ? "" : "s");
-}
-
-/// Of what `after` has no run to compare with, the first: "level_5, aims_d, seed 1-3"; none where
-/// every scenario and estimator has one.
-std::optional<std::string> without_runs(const Comparison& comparison) {
-  for (const std::string& missing : comparison.only_before) {
-    const bool compared = std::ranges::any_of(comparison.changes, [&](const ScoreChange& each) {
-      return missing.starts_with(each.scenario + ", " + each.estimator + ",");
-    });
-    if (!compared) return missing;
-  }
-  return std::nullopt;
 }
 
 void print_comparison(const Comparison& comparison) {
@@ -94,12 +81,10 @@ int compare_command(const CompareArguments& arguments) {
                                        "results differ; {}: no change can be told from noise",
                                        kFewestPairs, *found)});
   }
-  if (const auto missing = without_runs(comparison)) {
-    return bad_input(
-        kCompareName,
-        Error{fmt::format("--fail-on-worse: {} has no valid run of {}; expected one to "
-                          "compare with",
-                          arguments.after, *missing)});
+  if (!comparison.not_compared.empty()) {
+    return bad_input(kCompareName,
+                     Error{fmt::format("--fail-on-worse: {} has no valid run of {} to compare with",
+                                       arguments.after, comparison.not_compared.front())});
   }
   return kOk;
 }

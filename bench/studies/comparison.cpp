@@ -217,6 +217,15 @@ Comparison compare(const StoredResults& before, const StoredResults& after) {
   const SeedsByName seeds_after = seeds_where(after, ran);
   comparison.only_before = without(seeds_before, seeds_after);
   comparison.only_after = without(seeds_after, seeds_before);
+  const auto valid = [](const RunRecord& run, const std::string&) { return is_valid_run(run); };
+  const SeedsByName valid_after = seeds_where(after, valid);
+  for (const auto& [name, seeds] : seeds_where(before, valid)) {
+    const auto other = valid_after.find(name);
+    const auto is_common = [&](std::uint64_t seed) { return other->second.contains(seed); };
+    if (other == valid_after.end() || std::ranges::none_of(seeds, is_common)) {
+      comparison.not_compared.push_back(name);
+    }
+  }
   const auto failed = [](const RunRecord& run, const std::string& estimator) {
     return is_valid_run(run) && failed_in(run, estimator);
   };

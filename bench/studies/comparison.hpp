@@ -54,7 +54,9 @@ struct Comparison {
   std::vector<std::string> other_specs;
   std::vector<std::string> only_before;  ///< "scenario, estimator, seed 1,2"
   std::vector<std::string> only_after;
-  /// Likewise, where the estimator fails after and not before, and the reverse: such runs are lost
+  /// "scenario, estimator" with valid runs before, none of which has a valid one after.
+  std::vector<std::string> not_compared;
+  /// As `only_before`, where the estimator fails after and not before, and the reverse: such runs are lost
   /// successes, and have no other scores.
   std::vector<std::string> fails_now;
   std::vector<std::string> fails_no_more;

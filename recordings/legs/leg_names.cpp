@@ -5,16 +5,14 @@
 #include <cctype>
 #include <charconv>
 
+#include "core/text.hpp"
+
 namespace aims {
 namespace {
 
 constexpr std::size_t kMaxNameBytes = 200;
 
-std::string lower(std::string_view text) {
-  std::string result(text.substr(0, kMaxNameBytes));
-  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return result;
-}
+std::string lower(std::string_view text) { return lower_case(text.substr(0, kMaxNameBytes)); }
 
 bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }
 bool is_lower(char c) { return std::islower(static_cast<unsigned char>(c)) != 0; }

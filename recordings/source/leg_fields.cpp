@@ -9,6 +9,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/text.hpp"
 #include "recordings/legs/leg_names.hpp"
 #include "recordings/messages/message_values.hpp"
 
@@ -46,17 +47,13 @@ std::string vector_of(std::string_view path) {
 }  // namespace
 
 std::string last_name(std::string_view path) {
-  std::string name;
-  for (const char c : path.substr(path.rfind('.') + 1)) {
-    if (c != '_') name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
+  std::string name = lower_case(path.substr(path.rfind('.') + 1));
+  std::erase(name, '_');
   return name;
 }
 
 bool is_of_feet(std::string_view topic, std::string_view type) {
-  std::string both = fmt::format("{} {}", topic, type);
-  std::ranges::transform(both, both.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string both = lower_case(fmt::format("{} {}", topic, type));
   const auto holds = [&both](std::string_view part) { return both.find(part) != both.npos; };
   return (holds("foot") || holds("feet") || holds("toe")) && !holds("joint") && !holds("motor");
 }

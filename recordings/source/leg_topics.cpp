@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/leg_kinematics.hpp"
+#include "core/text.hpp"
 #include "recordings/legs/leg_names.hpp"
 #include "recordings/messages/message_decoder.hpp"
 #include "recordings/messages/robot_states.hpp"
@@ -27,9 +28,7 @@ constexpr std::size_t kJoints = 3;   ///< of a leg
 constexpr std::size_t kMostListed = 4;
 
 bool holds_any(std::string_view text, std::span<const std::string_view> parts) {
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string lower = lower_case(text);
   return std::ranges::any_of(
       parts, [&](std::string_view part) { return lower.find(part) != std::string::npos; });
 }

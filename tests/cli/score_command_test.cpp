@@ -197,6 +197,13 @@ TEST_F(Score, ComparedOnOneSeedHasATableAndNoVerdict) {
   EXPECT_EQ(gate.exit_code, 2) << "a gate that cannot fail is none";
   expect_says(
       gate, {"expected at least 6 common seeds where results differ; truth, mine: 1 pair of runs"});
+  ASSERT_EQ(
+      aims("score --truth truth.tum --no-pictures --name other --estimate truth.tum --out other")
+          .exit_code,
+      0);
+  const Outcome gone = aims("study compare before other --fail-on-worse");
+  EXPECT_EQ(gone.exit_code, 2) << gone.output;
+  expect_says(gone, {"other has no valid run of truth, mine to compare with"});
 }
 
 TEST_F(Score, OnlyTheTruthIsCalledTruth) {

@@ -75,6 +75,18 @@ TEST(Compare, PassesOverSmallChangesAndNoise) {
   EXPECT_EQ(ate_change(compare(results(kBefore), results(noisy))).verdict, ChangeVerdict::kNone);
 }
 
+TEST(Compare, NamesWhatHasNoValidRunOnTheOtherSide) {
+  const std::vector<std::string> walk = {"walk, aims"};
+  EXPECT_TRUE(compare(results(kBefore), results({0.2})).not_compared.empty()) << "one pair";
+  EXPECT_EQ(compare(results(kBefore), {{"other", runs({0.2})}}).not_compared, walk);
+  StoredResults invalid = results(kBefore);
+  for (RunRecord& run : invalid.at("walk")) {
+    run.scores["robot"] = {{"end", "fell"}, {"valid", false}, {"invalid_reason", "the robot fell"}};
+  }
+  EXPECT_EQ(compare(results(kBefore), invalid).not_compared, walk);
+  EXPECT_TRUE(compare(invalid, results(kBefore)).not_compared.empty()) << "nothing was lost";
+}
+
 TEST(Compare, CallsRoundingTheSame) {
   std::vector<double> rounded = kBefore;
   for (double& each : rounded) each += 1e-9;

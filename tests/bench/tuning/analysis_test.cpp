@@ -274,6 +274,22 @@ TEST(Effect, OfFewArrangementsIsTestedExactly) {
   EXPECT_NE(text_of(effect).find("all 32 arrangements"), std::string::npos) << text_of(effect);
 }
 
+TEST(BestPoint, SaysWhyItIsNotResolvedWherePointsDiffer) {
+  const auto ranges = ranges_of({"a=0:5:6"});
+  const auto table = table_of(ranges, {0.0}, {{1.0}, {2.0}, {3.0}, {4.0}, {5.0}}, 6,
+                              [](const std::vector<double>& point, const ResponseCase& on) {
+                                if (point[0] == 1.0) return on.seed % 2 == 0 ? 0.7 : 1.2;
+                                return 1.0 + 2.0 * point[0] * (point[0] > 1.0 ? 1.0 : 0.0);
+                              });
+  const Effect effect = effect_of(table, absolute());
+  const auto best = best_point(table, absolute());
+  ASSERT_TRUE(best && effect.tells_best());
+  EXPECT_EQ(standing_of(*best, effect), "least, not resolved");
+  EXPECT_NE(unresolved_text(*best, effect).find("points differ, but the gain over the defaults, "),
+            std::string::npos)
+      << unresolved_text(*best, effect);
+}
+
 TEST(Effect, OfASinglePointOrASmallOneIsSaidToBeThat) {
   const auto ranges = ranges_of({"a=0:1:12"});
   const auto of = [&](double base, double effect, double noise) {
