@@ -44,12 +44,12 @@ Result<void> validate(const RouteConfig& route) {
 }
 
 double start_heading(const RouteConfig& route) {
-  return heading_of(step_between(route.points[0], route.points[1]));
+  return wrap_angle(heading_of(step_between(route.points[0], route.points[1])) - route.sideslip);
 }
 
 double nominal_duration(const RouteConfig& route) {
   double duration = route.stand_before + route.stand_after;
-  double heading = start_heading(route);
+  double heading = start_heading(route) + route.sideslip;
   for (std::size_t i = 1; i < route.points.size(); ++i) {
     const Eigen::Vector2d step = step_between(route.points[i - 1], route.points[i]);
     const double turn = std::abs(wrap_angle(heading_of(step) - heading));
@@ -116,7 +116,8 @@ RouteFollower::Pursuit RouteFollower::pursue(const Pose& T_world_base) const {
   const Eigen::Vector2d here = T_world_base.translation.head<2>();
   const double travelled = (here - from).dot(along);
   const Eigen::Vector2d goal = from + (travelled + route_.lookahead) * along;
-  return {.bearing = wrap_angle(heading_of(goal - here) - yaw_of(T_world_base.rotation)),
+  const double course = yaw_of(T_world_base.rotation) + route_.sideslip;
+  return {.bearing = wrap_angle(heading_of(goal - here) - course),
           .distance = (goal - here).norm(),
           .left = leg.norm() - travelled};
 }
@@ -149,7 +150,7 @@ VelocityCommand RouteFollower::walk(const Pose& T_world_base) {
   const double braking = std::max(kCreep, std::sqrt(2.0 * kDeceleration * pursuit.left));
   const double speed = via ? route_.speed : std::min(route_.speed, braking);
   VelocityCommand command;
-  command.velocity.x() = speed;
+  command.velocity = speed * Eigen::Vector2d(std::cos(route_.sideslip), std::sin(route_.sideslip));
   command.yaw_rate = 2.0 * speed * std::sin(pursuit.bearing) / pursuit.distance;
   return command;
 }
@@ -214,6 +215,11 @@ void describe(Fields& f, RouteConfig& c) {
            {.unit = "rad",
             .range = in_range(0.2, 1.5),
             .meaning = "Heading error beyond which the robot turns in place."});
+  f.number("sideslip", c.sideslip,
+           {.unit = "rad",
+            .range = within(std::numbers::pi),
+            .meaning = "Angle from the robot's heading to its velocity; 0: forward, pi/2: to its "
+                       "left, pi: backward."});
 }
 
 }  // namespace aims

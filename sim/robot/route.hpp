@@ -30,6 +30,7 @@ struct RouteConfig {
   double stand_after = 2.0;          ///< at the end [s]
   double lookahead = 0.6;            ///< of the pure pursuit [m]
   double turn_in_place_angle = 0.7;  ///< heading error beyond which the robot turns in place [rad]
+  double sideslip = 0.0;             ///< angle from the robot's heading to its velocity [rad]
   bool follow_scene = false;         ///< the points are those of `points_along` (scene_route.hpp)
 };
 void describe(Fields& f, RouteConfig& c);
@@ -40,7 +41,7 @@ Result<void> validate(const RouteConfig& route);
 /// Length of the route over its speed, plus turns and pauses [s].
 double nominal_duration(const RouteConfig& route);
 
-/// Heading from the first point to the second [rad].
+/// Heading of a robot that walks from the first point to the second [rad].
 double start_heading(const RouteConfig& route);
 
 /// Steers the robot's base along a valid route.
@@ -67,7 +68,7 @@ class RouteFollower {
 
   /// Pure pursuit of the line through the last and the next point.
   struct Pursuit {
-    double bearing;   ///< of the point to steer to, from the robot's heading [rad]
+    double bearing;   ///< of the point to steer to, from the direction the robot walks in [rad]
     double distance;  ///< to that point [m]
     double left;      ///< along the line to the next point [m]
   };

@@ -72,6 +72,23 @@ TEST(Route, PassesItsNamedPointsInOrderAndStops) {
   EXPECT_NEAR(walk.duration, to_seconds(from_seconds(nominal_duration(route))), 8.0);
 }
 
+TEST(Route, WalksSidewaysAndBackwardAlongTheSameLine) {
+  for (const double sideslip : {0.5 * std::numbers::pi, std::numbers::pi, -1.0}) {
+    RouteConfig route;
+    route.points = {{"a", 0, 0}, {"b", 6, 3}, {"a", 0, 0}};
+    route.sideslip = sideslip;
+    EXPECT_NEAR(wrap_angle(start_heading(route) - (std::atan2(3.0, 6.0) - sideslip)), 0.0, 1e-12);
+    const Followed walk = follow(route);
+    ASSERT_TRUE(walk.done) << sideslip;
+    const Eigen::Vector2d across = Eigen::Vector2d(-3.0, 6.0).normalized();
+    for (const Eigen::Vector2d& p : walk.path) ASSERT_LT(std::abs(p.dot(across)), 0.05) << sideslip;
+    RouteConfig forward = route;
+    forward.sideslip = 0.0;
+    EXPECT_NEAR(nominal_duration(route), nominal_duration(forward), 1e-9);
+    EXPECT_NEAR(walk.duration, follow(forward).duration, 0.2) << sideslip;
+  }
+}
+
 TEST(Route, ReturnsAlongALineAfterTurningInPlace) {
   RouteConfig route;
   route.points = {{"a", 0, 0}, {"b", 8, 0}, {"a", 0, 0}};
