@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "estimator/filter/imu_propagation.hpp"
+#include "estimator/filter/outage.hpp"
 #include "estimator/filter/static_initialization.hpp"
 
 namespace aims {
@@ -197,6 +198,7 @@ void EskfEstimator::count_scan(const ScanDiagnostics& diagnostics) {
 
 /// Fuses the prepared points, and learns from the correction how noisy the IMU is.
 void EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
+  if (outage_ > 0.0) find_heading();
   const Belief predicted = belief_;
   const MotionVariance by_legs = std::exchange(taken_by_legs_, {});
   lidar_update_.hold_legs(!legs_are_final());
@@ -271,12 +273,27 @@ void EskfEstimator::apply_calibration() {
   mapping_->state = at_scan_pose(mapping_->state, matched, calibration_);
 }
 
+/// After an outage of all sensors: turns the belief to the heading at which the scan fits the map.
+void EskfEstimator::find_heading() {
+  const auto turn = lidar_update_.turn_onto_map(matching(), points_.to_match(), map_, calibration_,
+                                                heading_reach(outage_));
+  if (!turn) return;
+  outage_ = 0.0;
+  ++result_.counts["lidar.heading_searched"];
+  belief_.state = turned(belief_.state, *turn);
+  if (mapping_) mapping_->state = turned(mapping_->state, *turn);
+  leg_free_.restart(matching(), time_);
+}
+
 void EskfEstimator::predict_to(Time stamp) {
   if (stamp <= time_) return;
   queue_.imu().observe_noise(stamp);
   queue_.imu().segments(time_, stamp, segments_);
   for (const InertialSegment& segment : segments_) {
     if (!segment.measured) ++result_.counts["imu.bridged"];
+    if (!is_outage(segment)) continue;
+    outage_ += to_seconds(segment.end - segment.begin);
+    health_.outage(outage_);
   }
   predict(belief_, to_seconds(stamp - time_));
   if (mapping_) predict(*mapping_, to_seconds(stamp - time_));
@@ -288,7 +305,8 @@ void EskfEstimator::predict_to(Time stamp) {
 void EskfEstimator::predict(Belief& belief, double duration) {
   for (const InertialSegment& segment : segments_) {
     const double dt = to_seconds(segment.end - segment.begin);
-    accept(belief, propagate(belief, segment, dt, config_.imu));
+    accept(belief, is_outage(segment) ? after_outage(belief, dt)
+                                      : propagate(belief, segment, dt, config_.imu));
   }
   const double walk = robot_.walk_of_legs();
   walk_leg_states(belief, leg_states_of(config_), walk * walk * duration);

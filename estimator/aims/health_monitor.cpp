@@ -19,6 +19,7 @@ constexpr double kGap = 0.5;             ///< of legs or LiDAR [s]
 constexpr double kLongImuGap = 2.0;      ///< attitude and velocity are then guesses [s]
 constexpr double kLongGap = 5.0;         ///< without any correction [s]
 constexpr double kMaxRejected = 0.5;     ///< fraction of a sensor's measurements
+constexpr double kSearchedOutage = 2.0;  ///< of all sensors; the drift is searched no farther [s]
 constexpr double kForceTolerance = 0.2;  ///< of the mean specific force, relative to gravity
 
 // Limits on how sources disagree.
@@ -107,6 +108,10 @@ void HealthMonitor::judge_inputs(Time now, const InputMonitor& inputs, Findings&
   }
 }
 
+void HealthMonitor::outage(double duration) {
+  if (!sources_.lidar || duration > kSearchedOutage) position_lost_ = true;
+}
+
 void HealthMonitor::judge_agreement(Findings& findings) const {
   if (sources_.lidar && scans_without_update_ >= kScansWithoutUpdate) {
     findings.degraded.emplace_back("scans do not match the map");
@@ -124,6 +129,9 @@ void HealthMonitor::judge_agreement(Findings& findings) const {
   }
   if (position_residual_ > kPositionDisagreement + kNoiseFactor * expected_position_) {
     findings.degraded.emplace_back("scans disagree with the predicted position");
+  }
+  if (position_lost_) {
+    findings.degraded.emplace_back("position lost while no sensor measured");
   }
   if (calibration_contradicted_) {
     findings.degraded.emplace_back("the robot differs from its calibration");

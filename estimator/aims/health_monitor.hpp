@@ -47,6 +47,8 @@ class HealthMonitor {
   void scan(const ScanDiagnostics& scan, std::size_t points);
   /// The filter refused a result that is not finite.
   void not_finite() { not_finite_ = true; }
+  /// No sensor measured for `duration` [s].
+  void outage(double duration);
   /// The data contradict the calibration that the run started from.
   void calibration_contradicted() { calibration_contradicted_ = true; }
 
@@ -75,6 +77,7 @@ class HealthMonitor {
   double path_ = 0.0;               ///< [m]
   std::optional<Eigen::Vector3d> last_position_;
   bool calibration_contradicted_ = false;
+  bool position_lost_ = false;
   bool not_finite_ = false;  ///< since the last judgement
 };
 

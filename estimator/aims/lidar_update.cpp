@@ -8,6 +8,7 @@
 
 #include "estimator/aims/leg_free_prediction.hpp"
 #include "estimator/degeneracy/degeneracy.hpp"
+#include "estimator/filter/outage.hpp"
 #include "estimator/filter/pose_information.hpp"
 #include "estimator/lidar/drift_search.hpp"
 
@@ -57,6 +58,12 @@ constexpr double kMaxSearched = 3.0;
 constexpr int kSearchEvery = 5;
 /// Smaller offsets are left to the residuals, which reach as far.
 constexpr double kMinOffset = 0.5 * kMaxResidual;
+
+/// Between the headings that are tried: from half of it the matching converges [rad].
+constexpr double kHeadingStep = 0.2;
+constexpr int kHeadingIterations = 6;
+/// A heading farther away must fit so many times the points.
+constexpr double kClearlyMore = 1.1;
 
 /// Tilt that both halves share of a map whose scans were placed by all information, the noise of
 /// the map included (docs/decisions.md) [rad].
@@ -167,6 +174,45 @@ Belief LidarUpdate::fused_with(const Belief& prior, const NominalState& at,
   RuledUpdate update = rule_->fuse(prior, at, scan.measurement, matches);
   verdict_ = update.verdict;
   return update.belief;
+}
+
+/// Where the scan settles in the map from `predicted`, with every fifth point; `scan_` counts the
+/// matches.
+NominalState LidarUpdate::settled(const Belief& predicted, std::span<const Eigen::Vector3f> points,
+                                  const VoxelMap& map) {
+  NominalState at = predicted.state;
+  for (int i = 0;; ++i) {
+    const Pose pose = scan_pose(at, calibration_);
+    matcher_.match(pose, points, map, kGuessStride);
+    scan_ = matcher_.linearize(pose);
+    if (scan_.used < kMinMatches || i == kHeadingIterations) return at;
+    const Linearization scan = fused(ScanPart::kAll, 1.0, at);
+    at = fuse(predicted, at, scan.measurement, scan.mask).state;
+  }
+}
+
+std::optional<double> LidarUpdate::turn_onto_map(const Belief& predicted,
+                                                 std::span<const Eigen::Vector3f> points,
+                                                 const VoxelMap& map,
+                                                 const CalibrationModel& calibration,
+                                                 double reach) {
+  calibration_ = calibration;
+  matcher_.reset(calibration_.lever);
+  const double heading = yaw_of(predicted.state.rotation);
+  std::optional<double> best;
+  double most = 0.0;
+  const int steps = static_cast<int>(std::ceil(reach / kHeadingStep));
+  for (int i = 0; i <= 2 * steps; ++i) {  // outwards: 0, 1, -1, 2, -2, ...
+    const double turn = kHeadingStep * ((i + 1) / 2) * (i % 2 == 0 ? -1.0 : 1.0);
+    const NominalState at =
+        settled({turned(predicted.state, turn), predicted.covariance}, points, map);
+    if (scan_.used < kMinMatches) continue;
+    const int fit = matcher_.agreement(scan_pose(at, calibration_), Eigen::Vector3d::UnitZ()).all;
+    if (fit < kClearlyMore * most) continue;
+    most = fit;
+    best = wrap_angle(yaw_of(at.rotation) - heading);
+  }
+  return best;
 }
 
 /// One step with every fifth point. Its result is so close to the final one that the planes of all

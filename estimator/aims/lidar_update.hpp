@@ -68,6 +68,12 @@ class LidarUpdate {
                 const VoxelMap& map, const CalibrationModel& calibration, ScanPart part,
                 ScanDiagnostics& diagnostics, const Belief* leg_free = nullptr);
 
+  /// The turn about the vertical, at most `reach` [rad] to either side of `predicted`, after which
+  /// the most points fit the map; nothing where no heading has kMinMatches planes.
+  std::optional<double> turn_onto_map(const Belief& predicted,
+                                      std::span<const Eigen::Vector3f> points, const VoxelMap& map,
+                                      const CalibrationModel& calibration, double reach);
+
   /// A second belief for the same time, `predicted`, after fusing the cross-validated part of the
   /// scan that update() fused last (at least one iteration, same map). Along directions that the
   /// scan does not constrain the two beliefs may be far apart.
@@ -104,6 +110,8 @@ class LidarUpdate {
   GainMask scan_mask(const NominalState& state) const;
   Linearization fused(ScanPart part, double gamma, const NominalState& state) const;
   Belief fused_with(const Belief& prior, const NominalState& at, const Linearization& scan);
+  NominalState settled(const Belief& predicted, std::span<const Eigen::Vector3f> points,
+                       const VoxelMap& map);
   NominalState first_guess(const Belief& predicted, std::span<const Eigen::Vector3f> points,
                            const VoxelMap& map, ScanDiagnostics& diagnostics);
   NominalState match_along_drift(const Belief& predicted, const NominalState& guess,
