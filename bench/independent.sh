@@ -13,26 +13,28 @@ usage: bench/independent.sh [OPTION VALUE]...
   --seeds A,B          (1)
   --estimators A,B     as for aims estimate (aims_d,tfs_plus,lio,leg)
   --set KEY=VALUE      as for aims estimate; repeatable
+  --calibration FILE   as for aims estimate
   --length METRES      of the route, one way (that of the cell)
   --rings NAME         uneven, uniform or 32 (uneven)
   --legs-scale FACTOR  reported over true leg velocity (1.045)
+  --relief METRES      deviation of the walls from planes (0)
   --jobs N             recordings at a time (2)
   --keep yes|no        recordings made by this call; a full one takes 1.2 GB (yes)
 EOF
 }
 
 bin=build/release out=out/independent cells=doors_30,recess5_30,plain_30,plain_open_30,garage_30
-rates=50,200 seeds=1 estimators=aims_d,tfs_plus,lio,leg length=0 rings=uneven legs_scale=1.045 jobs=2 keep=yes
+rates=50,200 seeds=1 estimators=aims_d,tfs_plus,lio,leg length=0 rings=uneven legs_scale=1.045 relief=0 jobs=2 keep=yes
 settings=()
 while [ $# -gt 0 ]; do
   case $1 in
     --help|-h) usage; exit 0 ;;
-    --bin|--out|--cells|--rates|--seeds|--estimators|--length|--rings|--legs-scale|--jobs|--keep|--set) ;;
+    --bin|--out|--cells|--rates|--seeds|--estimators|--length|--rings|--legs-scale|--relief|--jobs|--keep|--set|--calibration) ;;
     *) echo "independent.sh: unknown option '$1'" >&2; usage >&2; exit 2 ;;
   esac
   [ $# -ge 2 ] || { echo "independent.sh: $1 needs a value" >&2; exit 2; }
   case $1 in
-    --set) settings+=(--set "$2") ;;
+    --set|--calibration) settings+=("$1" "$2") ;;
     --legs-scale) legs_scale=$2 ;;
     *) declare "${1#--}=$2" ;;
   esac
@@ -46,10 +48,11 @@ score() {
   [ "$length" = 0 ] || name+=-${length}m
   [ "$rings" = uneven ] || name+=-$rings
   [ "$legs_scale" = 1.045 ] || name+=-legs_$legs_scale
+  [ "$relief" = 0 ] || name+=-relief_$relief
   bag=$out/recordings/$name.bag
   if [ ! -e "$bag" ]; then
     "$bin/independent_recordings" "$1" --imu-rate "$2" --seed "$3" --length "$length" \
-      --rings "$rings" --legs-scale "$legs_scale" --lz4 -o "$bag" || return 1
+      --rings "$rings" --legs-scale "$legs_scale" --relief "$relief" --lz4 -o "$bag" || return 1
     made=yes
   fi
   mkdir -p "$out/results"
@@ -61,7 +64,7 @@ score() {
   echo "$name" >&3
 }
 export -f score
-export bin out length rings legs_scale estimators keep
+export bin out length rings legs_scale relief estimators keep
 
 # Rows of one recording: its name and its scores.csv.
 rows() {

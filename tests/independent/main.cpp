@@ -24,6 +24,7 @@ int run(int argc, char** argv) {
   app.add_option("--length", options.length, "Route, one way [m] (that of the cell)");
   app.add_option("--legs-scale", options.legs_scale, "Reported over true leg velocity (1.045)");
   app.add_option("--rings", options.rings, "Elevations: uneven, uniform or 32 (uneven)");
+  app.add_option("--relief", options.relief, "Deviation of the walls from planes [m] (0)");
   app.add_option("--range-noise", options.range_noise, "Deviation of a LiDAR range [m] (0.02)");
   app.add_option("--outliers", options.outliers, "Fraction of returns that are too short (0.002)");
   app.add_option("--vibration", options.vibration, "Factor on the vibration of the IMU (1)");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <system_error>
 #include <utility>
 #include <variant>
@@ -122,6 +123,7 @@ Result<void> check(const RecordingOptions& options) {
   };
   for (const Bound& bound : {Bound{"--imu-rate", options.imu_rate_hz, 20.0, 2000.0},
                              Bound{"--legs-scale", options.legs_scale, 0.1, 10.0},
+                             Bound{"--relief", options.relief, 0.0, 0.02},
                              Bound{"--range-noise", options.range_noise, 0.0, 1.0},
                              Bound{"--outliers", options.outliers, 0.0, 1.0},
                              Bound{"--vibration", options.vibration, 0.0, 100.0}}) {
@@ -157,8 +159,12 @@ SensorRig rig_of(const RecordingOptions& options) {
 
 Result<void> write_recording(const RecordingOptions& options, const fs::path& bag) {
   if (auto ok = check(options); !ok) return ok;
-  const auto cell = make_cell(options.cell, options.length);
+  auto cell = make_cell(options.cell, options.length);
   if (!cell) return tl::unexpected(cell.error());
+  World& world = cell->world;
+  if (options.relief > 0.0) {
+    world.relief = std::make_shared<Relief>(world.room, options.relief, options.seed);
+  }
   auto rings = ring_elevations_deg(options.rings);
   if (!rings) return tl::unexpected(rings.error());
   const Walk walk({.length = cell->length, .seed = options.seed});
@@ -178,10 +184,11 @@ Result<void> write_recording(const RecordingOptions& options, const fs::path& ba
   if (!file) return tl::unexpected(file.error());
   auto writer = RecordingWriter::create(
       std::move(*file), rig,
-      fmt::format("# independent recording of {}, seed {}\n", options.cell, options.seed));
+      fmt::format("# independent recording of {}, seed {}{}\n", options.cell, options.seed,
+                  options.relief > 0.0 ? fmt::format(", relief {} m", options.relief) : ""));
   if (!writer) return tl::unexpected(writer.error());
   Recorder recorder(std::move(*writer), walk, small_deliveries(walk, rig, options));
-  if (auto ok = fill(recorder, lidar, walk, cell->world); !ok) return ok;
+  if (auto ok = fill(recorder, lidar, walk, world); !ok) return ok;
   if (auto ok = recorder.writer().close(); !ok) return ok;
   if (auto ok = write_tum(beside(bag, ".truth.tum"), recorder.truth()); !ok) return ok;
   const auto times = waypoint_times_of(walk);

@@ -18,6 +18,7 @@ struct RecordingOptions {
   double length = 0.0;  ///< of the route, one way; 0: that of the cell [m]
   double legs_scale = 1.045;
   std::string rings = "uneven";
+  double relief = 0.0;        ///< of the walls, standard deviation [m]
   double range_noise = 0.02;  ///< of the LiDAR [m]
   double outliers = 0.002;    ///< fraction of LiDAR returns
   double vibration = 1.0;     ///< factor on that of the IMU

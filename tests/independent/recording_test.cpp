@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <variant>
 #include <vector>
 
@@ -74,6 +76,47 @@ TEST(IndependentRecording, IsReadBackWithItsRatesMountsAndTruth) {
   EXPECT_NEAR(pose_at(*truth, (*times)[1].stamp)->translation.x(), 2.0, 1e-3);
 }
 
+/// Points of the scans of a recording, one after the other.
+std::vector<LidarPoint> points_of(const fs::path& bag) {
+  auto reader = RecordingReader::open(bag, {});
+  std::vector<Delivery> deliveries;
+  while (reader && *reader->advance(kSecond, deliveries)) {
+  }
+  std::vector<LidarPoint> points;
+  for (const Delivery& each : deliveries) {
+    if (const auto* scan = std::get_if<LidarScanPtr>(&each.measurement)) {
+      points.insert(points.end(), (*scan)->points.begin(), (*scan)->points.end());
+    }
+  }
+  return points;
+}
+
+TEST(IndependentRecording, ReliefMovesReturnsAndLeavesTheRestWithItsNoise) {
+  const TemporaryFolder folder;
+  RecordingOptions options = short_options();
+  options.cell = "plain_open_30";
+  options.outliers = 0.0;
+  ASSERT_TRUE(write_recording(options, folder.path() / "plain.bag"));
+  options.relief = 0.0015;
+  ASSERT_TRUE(write_recording(options, folder.path() / "relief.bag"));
+  EXPECT_TRUE(*read_file(folder.path() / "plain.truth.tum") ==
+              *read_file(folder.path() / "relief.truth.tum"));
+  const std::vector<LidarPoint> plain = points_of(folder.path() / "plain.bag");
+  const std::vector<LidarPoint> relief = points_of(folder.path() / "relief.bag");
+  double squares = 0.0;
+  int count = 0;
+  for (std::size_t i = 0; i < std::min(plain.size(), relief.size()); ++i) {
+    // Until the first that only one of them has, at the end of the range.
+    if (plain[i].ring != relief[i].ring || plain[i].time_offset_ns != relief[i].time_offset_ns)
+      break;
+    squares += (plain[i].position - relief[i].position).squaredNorm();
+    ++count;
+  }
+  EXPECT_GT(count, 1000);
+  EXPECT_GT(std::sqrt(squares / count), 0.0015);  // along rays that meet the wall aslant
+  EXPECT_LT(std::sqrt(squares / count), 0.02);
+}
+
 TEST(IndependentRecording, BadOptionsAreErrors) {
   const TemporaryFolder folder;
   RecordingOptions options = short_options();
@@ -84,6 +127,9 @@ TEST(IndependentRecording, BadOptionsAreErrors) {
   EXPECT_FALSE(write_recording(options, folder.path() / "x.bag"));
   options = short_options();
   options.outliers = 2.0;
+  EXPECT_FALSE(write_recording(options, folder.path() / "x.bag"));
+  options = short_options();
+  options.relief = -0.001;
   EXPECT_FALSE(write_recording(options, folder.path() / "x.bag"));
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }

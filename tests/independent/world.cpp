@@ -34,6 +34,13 @@ Eigen::Vector3d inverse_of(const Eigen::Vector3d& direction) {
       [](double each) { return std::abs(each) > 1e-300 ? 1.0 / each : 1e300; });
 }
 
+/// The recess with the air before it where the wall stands out by up to `bound`.
+Box opened(Box recess, const Box& room, double bound) {
+  const bool left = recess.min().y() > room.center().y();
+  (left ? recess.min() : recess.max()).y() += left ? -bound : bound;
+  return recess;
+}
+
 /// Whether the point is in the box's opening, seen along y.
 bool opens_at(const Box& recess, const Eigen::Vector3d& point) {
   return point.x() > recess.min().x() && point.x() < recess.max().x() &&
@@ -58,9 +65,11 @@ double distance_to(const Pillar& pillar, const Eigen::Vector3d& origin,
 
 double World::distance(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
   const Eigen::Vector3d inverse = inverse_of(direction);
-  double nearest = crossing(room, origin, inverse).leave;
+  double nearest =
+      relief ? relief->distance(origin, direction, reach) : crossing(room, origin, inverse).leave;
   const Eigen::Vector3d end = origin + nearest * direction;
-  for (const Box& recess : recesses) {
+  for (const Box& each : recesses) {
+    const Box recess = relief ? opened(each, room, relief->bound()) : each;
     if (!opens_at(recess, end)) continue;
     nearest = crossing(recess, origin, inverse).leave;
     break;
@@ -76,7 +85,7 @@ double World::distance(const Eigen::Vector3d& origin, const Eigen::Vector3d& dir
 }
 
 World World::within(const Eigen::Vector3d& origin, double range) const {
-  World near{room, {}, {}, {}};
+  World near{room, {}, {}, {}, relief, range};
   const auto reaches = [&](const Box& box) { return box.exteriorDistance(origin) < range; };
   std::ranges::copy_if(recesses, std::back_inserter(near.recesses), reaches);
   std::ranges::copy_if(boxes, std::back_inserter(near.boxes), reaches);

@@ -3,7 +3,11 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <limits>
+#include <memory>
 #include <vector>
+
+#include "tests/independent/relief.hpp"
 
 namespace aims::independent {
 
@@ -22,6 +26,9 @@ struct World {
   std::vector<Box> recesses;  ///< air behind openings in the walls at the room's least or largest y
   std::vector<Box> boxes;
   std::vector<Pillar> pillars;
+  std::shared_ptr<const Relief> relief = nullptr;  ///< of the room's sides; none: planes
+  /// Nothing is farther, or is not looked for [m].
+  double reach = std::numeric_limits<double>::infinity();
 
   /// Distance [m] from `origin`, in the air of the room, along the unit `direction` to the first
   /// surface.

@@ -61,10 +61,30 @@ TEST(World, PillarIsHitWhereItsCircleIs) {
   EXPECT_NEAR(world.distance({0.0, 0.0, 1.0}, Vector3d(0.8, 0.0, 0.6)), 2.0 / 0.6, 1e-12);
 }
 
+/// Whether the point is before all sides of the room.
+bool in_room(const World& world, const Vector3d& point) {
+  if (!world.relief) return world.room.contains(point);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double above = point[axis] - world.room.min()[axis];
+    const double below = world.room.max()[axis] - point[axis];
+    if (above < -world.relief->height({axis, false}, point)) return false;
+    if (below < -world.relief->height({axis, true}, point)) return false;
+  }
+  return true;
+}
+
+/// The recess, which cuts through the wall before it where that stands out.
+Box carved(const World& world, const Box& recess) {
+  Vector3d before = recess.center();
+  before.y() = recess.min().y() - (world.relief ? world.relief->bound() : 0.0);
+  Box box = recess;
+  return box.extend(before);
+}
+
 /// Whether the point is in the air, from the definition of the world.
 bool in_air(const World& world, const Vector3d& point) {
-  bool air = world.room.contains(point);
-  for (const Box& recess : world.recesses) air = air || recess.contains(point);
+  bool air = in_room(world, point);
+  for (const Box& recess : world.recesses) air = air || carved(world, recess).contains(point);
   for (const Box& box : world.boxes) air = air && !box.contains(point);
   for (const Pillar& pillar : world.pillars) {
     air = air && std::hypot(point.x() - pillar.x, point.y() - pillar.y) > pillar.radius;
@@ -75,8 +95,11 @@ bool in_air(const World& world, const Vector3d& point) {
 TEST(World, DistanceAgreesWithMarchingThroughTheAir) {
   std::printf("seed %lu\n", static_cast<unsigned long>(kSeed));
   RandomStream random(kSeed, "rays");
-  for (const std::string_view name : {"garage_30", "doors_30"}) {
-    const World world = make_cell(name)->world;
+  for (const auto& [name, relief] :
+       {std::pair{"garage_30", 0.0}, std::pair{"doors_30", 0.0}, std::pair{"doors_30", 0.003},
+        std::pair{"recess2_30", 0.003}}) {
+    World world = make_cell(name)->world;
+    if (relief > 0.0) world.relief = std::make_shared<Relief>(world.room, relief, kSeed);
     for (int i = 0; i < 400; ++i) {
       const Vector3d origin(random.uniform(0.0, 50.0), random.uniform(-0.5, 0.5), 0.5);
       const Vector3d direction = random.normal3().cwiseProduct(Vector3d(1, 1, 0.2)).normalized();
@@ -84,22 +107,26 @@ TEST(World, DistanceAgreesWithMarchingThroughTheAir) {
       for (double t = 0.01; t < distance - 1e-6; t += 0.01) {
         ASSERT_TRUE(in_air(world, origin + t * direction)) << name << " ray " << i << " at " << t;
       }
-      ASSERT_FALSE(in_air(world, origin + (distance + 1e-6) * direction)) << name << " ray " << i;
+      ASSERT_FALSE(in_air(world, origin + (distance + 1e-6) * direction))
+          << name << " ray " << i << " relief " << relief;
     }
   }
 }
 
 TEST(World, SolidsOutOfRangeDoNotMatter) {
   RandomStream random(kSeed, "near");
-  const World world = make_cell("garage_30")->world;
+  World world = make_cell("garage_30")->world;
   const Vector3d origin(25.0, 0.2, 0.5);
-  const World near = world.within(origin, 10.0);
-  EXPECT_LT(near.boxes.size(), world.boxes.size());
-  for (int i = 0; i < 1000; ++i) {
-    const Vector3d direction = random.normal3().normalized();
-    const double distance = world.distance(origin, direction);
-    if (distance >= 10.0) continue;
-    EXPECT_EQ(near.distance(origin, direction), distance);
+  for (const bool uneven : {false, true}) {
+    if (uneven) world.relief = std::make_shared<Relief>(world.room, 0.003, kSeed);
+    const World near = world.within(origin, 10.0);
+    EXPECT_LT(near.boxes.size(), world.boxes.size());
+    for (int i = 0; i < 1000; ++i) {
+      const Vector3d direction = random.normal3().normalized();
+      const double distance = world.distance(origin, direction);
+      if (distance >= 10.0) continue;
+      EXPECT_EQ(near.distance(origin, direction), distance);
+    }
   }
 }
 
