@@ -204,7 +204,7 @@ class Gathering {
     }
     return fmt::format(
         "no messages yet, though there are publishers of {} topics: is their clock set? DDS "
-        "drops what is sent from 2038 on",
+        "drops what is sent from 2038 on; with --source-time aims_play alone is heard",
         subscribed_.size());
   }
 

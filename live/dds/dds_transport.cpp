@@ -39,18 +39,24 @@ constexpr const char* kThisComputer =
 /// again, late. A writer keeps what a subscriber that was killed does not acknowledge until that is
 /// noticed, after 10 s; by default 500 kB, then all others wait. It asks for acknowledgements every
 /// 10 ms, for those who wait for them. What CYCLONEDDS_URI says takes precedence.
-void configure_dds() {
-  const std::string own =
-      "<CycloneDDS><Domain><Internal><SocketReceiveBufferSize max=\"16 MiB\"/>"
-      "<Watermarks><WhcHigh>512 MiB</WhcHigh></Watermarks>"
-      "<HeartbeatInterval minsched=\"10 ms\">10 ms</HeartbeatInterval>"
-      "</Internal></Domain></CycloneDDS>";
+constexpr std::string_view kOwn =
+    "<CycloneDDS><Domain><Internal><SocketReceiveBufferSize max=\"16 MiB\"/>"
+    "<Watermarks><WhcHigh>512 MiB</WhcHigh></Watermarks>"
+    "<HeartbeatInterval minsched=\"10 ms\">10 ms</HeartbeatInterval>"
+    "</Internal></Domain></CycloneDDS>,";
+
+/// What the user says.
+std::string given_configuration() {
   const char* set = std::getenv(kConfiguration);
+  const std::string given = set == nullptr ? "" : set;
+  return given.starts_with(kOwn) ? given.substr(kOwn.size()) : given;
+}
+
+void configure_dds() {
   const char* here = std::getenv("ROS_LOCALHOST_ONLY");
-  std::string given = set == nullptr ? "" : set;
-  if (given.starts_with(own)) return;
+  std::string given = given_configuration();
   if (given.empty() && here != nullptr && std::string_view(here) == "1") given = kThisComputer;
-  setenv(kConfiguration, (given.empty() ? own : own + "," + given).c_str(), 1);
+  setenv(kConfiguration, fmt::format("{}{}", kOwn, given).c_str(), 1);
 }
 
 using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
@@ -224,8 +230,11 @@ bool DdsTransport::preceded(const std::string& topic) {
 }
 
 std::string DdsTransport::place() const {
-  const char* set = std::getenv(kConfiguration);
-  return fmt::format(" on domain {}; {}={}", options_.domain, kConfiguration, set ? set : "");
+  const std::string given = given_configuration();
+  return fmt::format(" on domain {}, {}", options_.domain,
+                     given.empty()            ? "on the interface that CycloneDDS chooses"
+                     : given == kThisComputer ? "on this computer alone (ROS_LOCALHOST_ONLY)"
+                                              : fmt::format("{}={}", kConfiguration, given));
 }
 
 std::string DdsTransport::resolved(const std::string& topic) const {
