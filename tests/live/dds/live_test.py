@@ -172,14 +172,23 @@ class LiveEstimate(unittest.TestCase):
         ours, theirs = (content(os.path.join(folder, file)) for folder in (live.name, live.name + "-again"))
         self.assertEqual(ours, theirs, file)
 
-    def assert_same(self, live):
+    def assert_same_health(self, live):
+        ours, theirs = (content(os.path.join(folder, "aims_d.health.csv")).splitlines(keepends=True)
+                        for folder in (live.name, live.name + "-again"))
+        stamps = [float(row.split(b",")[0]) for row in ours[1:]]
+        self.assertEqual(stamps, sorted(stamps))
+        heard = [row for row in ours if b"no messages" not in row]
+        self.assertEqual(heard, theirs)
+        self.assertGreater(len(ours), len(heard), "the silence after the last message")
+
+    def assert_same(self, live, *options):
         code = live.finish()
         log = live.log() + live.said
         self.assertEqual((code, live.play.returncode), (0, 0), log)
         self.assertNotIn("dropped", log)
         self.assertNotIn("warning", log)
         self.assertIn("no messages", live.states()[-1], "what was queued is no news behind the silence")
-        recorded = estimate(live.name + ".mcap", live.name + "-again")
+        recorded = estimate(live.name + ".mcap", live.name + "-again", *options)
         poses = live.poses().count(b"\n")
         print(f"{live.name}: {poses} poses; of the recording played {len(self.offline.splitlines())}")
         self.assertGreater(poses, 80)
@@ -204,13 +213,11 @@ class LiveEstimate(unittest.TestCase):
         live = self.assert_same(Live("walk.mcap", "source"))
         self.assertEqual(live.poses(), self.offline)
         # By time of arrival, its rows are stamped by the shift of clocks, of which the record shows more.
-        ours, theirs = (content(os.path.join(folder, "aims_d.health.csv")).splitlines(keepends=True)
-                        for folder in (live.name, live.name + "-again"))
-        stamps = [float(row.split(b",")[0]) for row in ours[1:]]
-        self.assertEqual(stamps, sorted(stamps))
-        heard = [row for row in ours if b"no messages" not in row]
-        self.assertEqual(heard, theirs)
-        self.assertGreater(len(ours), len(heard), "the silence after the last message")
+        self.assert_same_health(live)
+
+    def test_legs_by_joints_give_the_same_bytes_and_health(self):
+        joints = ["--set", "recording.topics.leg_odometry=none"]
+        self.assert_same_health(self.assert_same(Live("walk.mcap", "joints", joints), *joints))
 
     def test_with_a_calibration_live_poses_are_those_of_the_recording_with_it(self):
         run(AIMS, "calibrate", "walk.mcap", "--topics", "lidar=/lidar/points", "--out", "robot.yaml", "--overwrite",
