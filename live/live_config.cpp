@@ -44,6 +44,10 @@ Result<LiveConfig> load_live_config(const LiveOptions& options) {
   if (auto spec = parse_estimator_spec(options.estimator); !spec) {
     return tl::unexpected(spec.error());
   }
+  if (options.odom_frame == options.body_frame) {
+    return failure(fmt::format("--body-frame: expected another frame than --odom-frame, '{}'",
+                               options.odom_frame));
+  }
   config.estimator = options.estimator;
   std::vector<AssignedKey> assigned;
   if (!options.robot.empty()) {

@@ -65,6 +65,9 @@ Result<void> LiveEstimate::run() {
   ended_ = true;
   estimator_.finish();
   take_rows();
+  std::vector<HealthRow> rest;
+  add_silence(rest, true);
+  log_.add({}, rest);
   if (auto ok = log_.save_map(placed(estimator_.map_points())); !ok) return ok;
   if (auto ok = log_.save_summary(reader_, estimator_.result(), true); !ok) return ok;
   if (const auto& failed = estimator_.result().failure) return tl::unexpected(*failed);
@@ -102,6 +105,7 @@ void LiveEstimate::take_rows() {
   if (!poses.empty()) publish_points(poses.back().stamp);
   std::vector<HealthRow> health(new_health.begin(), new_health.end());
   publish_health(health);
+  add_silence(health, false);
   poses_ += poses.size();
   log_.add(poses, health);
   // All rows are taken; the estimator forgets them, so that memory does not grow.
@@ -215,7 +219,19 @@ void LiveEstimate::tell_invalid(const char* reason, double seconds) {
   row.stamp += from_seconds(seconds);
   silent_at_ = row.stamp;
   publish(row);
-  log_.add({}, std::span(&row, 1));
+  if (silence_.size() > 1) silence_.pop_back();  // its begin and its end
+  silence_.push_back(row);
+}
+
+/// Puts the rows of a silence among those of the estimator, which may come later: it waits for late
+/// measurements. `all`: also those after the last row.
+void LiveEstimate::add_silence(std::vector<HealthRow>& rows, bool all) {
+  const auto end = std::ranges::find_if(silence_, [&](const HealthRow& each) {
+    return !all && (rows.empty() || each.stamp > rows.back().stamp);
+  });
+  rows.insert(rows.end(), silence_.begin(), end);
+  silence_.erase(silence_.begin(), end);
+  std::ranges::stable_sort(rows, {}, &HealthRow::stamp);
 }
 
 std::vector<Eigen::Vector3f> LiveEstimate::placed(std::vector<Eigen::Vector3f> points) const {

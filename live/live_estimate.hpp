@@ -61,6 +61,7 @@ class LiveEstimate {
   void warn(const ReadingWarning& warning);
   /// Publishes and logs that the estimate is invalid so long after its last pose [s].
   void tell_invalid(const char* reason, double seconds);
+  void add_silence(std::vector<HealthRow>& rows, bool all);
   void take(const Delivery& delivery);
   void take_rows();
   void warn_of_motion();
@@ -87,6 +88,7 @@ class LiveEstimate {
   HealthHold hold_;
   std::optional<HealthRow> printed_;
   Time silent_at_ = std::numeric_limits<Time>::min();  ///< last row of a silence
+  std::vector<HealthRow> silence_;                     ///< not yet logged
   bool ended_ = false;                                 ///< the rest is what was queued
   std::string warning_ = "none";                       ///< of the network, the last one
   Time next_map_ = 0;

@@ -2,6 +2,11 @@
 #include "live/live_options.hpp"
 
 namespace aims {
+namespace {
+
+std::string is_frame(const std::string& name) { return name.empty() ? "expected a name" : ""; }
+
+}  // namespace
 
 void add_live_options(CLI::App& app, LiveOptions& options) {
   app.add_option("--estimator,--estimators", options.estimator, "Estimator to run (aims_d)");
@@ -20,8 +25,10 @@ void add_live_options(CLI::App& app, LiveOptions& options) {
   app.add_option("--record", options.record,
                  "Recording to write of the messages read: .mcap under ROS 2, .bag under ROS 1");
   app.add_option("--odom-frame,--odom_frame", options.odom_frame,
-                 "Frame of the published poses (odom)");
-  app.add_option("--body-frame,--body_frame", options.body_frame, "Frame of the IMU (imu)");
+                 "Frame of the published poses (odom)")
+      ->check(is_frame);
+  app.add_option("--body-frame,--body_frame", options.body_frame, "Frame of the IMU (imu)")
+      ->check(is_frame);
   app.add_flag("--tf", options.tf, "Also publish the pose on /tf");
   app.add_option("--settle", options.settle,
                  "Time [s] gathered before topics, units and extrinsics are decided (3)")

@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kPoll = 0.2;          ///< between queries for new topics [s]
 constexpr double kReportPeriod = 5.0;  ///< [s]
+constexpr double kLookPeriod = 1.0;    ///< for fixed transforms, while it estimates [s]
 constexpr Duration kCatchUp = 2 * kSecond;
 constexpr Duration kMaxGathered = 10 * kSecond;  ///< of messages, however long it takes
 constexpr std::size_t kMostTransforms = 1000;    ///< messages
@@ -37,6 +38,11 @@ bool is_estimated(const std::string& topic, const std::map<std::string, std::str
   const std::size_t name = topic.rfind('/') + 1;
   return std::ranges::find(kPublished, topic.substr(name)) != kPublished.end() &&
          topics.contains(topic.substr(0, name) + "odometry_fast");
+}
+
+/// Whether the topic is one of a record of a live estimate, which is played.
+bool is_mark(const std::string& topic) {
+  return topic == kDecidedTopic || topic == kForgottenTopic;
 }
 
 /// The frames that a message of /tf_static places; empty: it is none.
@@ -61,6 +67,13 @@ void keep(const LiveMessage& message, LiveTransforms* transforms) {
   if (!frames.empty()) transforms->insert_or_assign(frames, message);
 }
 
+/// Fixed transforms whose publisher came late serve the next estimate.
+void subscribe_to_late_transforms(Transport& transport) {
+  const auto topics = transport.topics();
+  const auto found = topics.find(std::string(kStaticTransformsTopic));
+  if (found != topics.end()) transport.subscribe(found->first, found->second);
+}
+
 /// Collects the messages of all topics of the last `kMaxGathered`, and all latched and fixed ones,
 /// until they can be read.
 class Gathering {
@@ -74,15 +87,15 @@ class Gathering {
     }
   }
 
-  /// The reader once it can be opened. Error when the node ends before, or after the timeout.
-  Result<RecordingReader> wait_to_open() {
+  /// The reader once it can be opened; none when the node ends before. Error after the timeout.
+  Result<std::optional<RecordingReader>> wait_to_open() {
     const Stopwatch since_start;
     Stopwatch since_report;
     std::string missing = "no messages yet";
     while (transport_.running()) {
       collect();
       auto reader = try_open();
-      if (reader) return reader;
+      if (reader) return std::move(*reader);
       missing = reader.error().message;
       if (options_.patience > 0.0 && since_start.seconds() > options_.patience) {
         return failure(fmt::format("timeout after {:g} s: {}", options_.patience, missing));
@@ -91,12 +104,13 @@ class Gathering {
       options_.waiting(missing);
       since_report = Stopwatch();
     }
-    return failure(fmt::format("stopped before the estimate started: {}", missing));
+    options_.waiting(missing + "; ended before the estimate could start");
+    return std::nullopt;
   }
 
   /// Shows the observer what was heard, which is to tell why it did not start.
   void show() const {
-    if (options_.observer) LiveSource(messages_, {}).go_live(options_.observer);
+    if (options_.observer) LiveSource(messages_, {}).show(options_.observer);
   }
 
  private:
@@ -105,7 +119,7 @@ class Gathering {
     const auto topics = transport_.topics();
     for (const auto& [topic, type] : topics) {
       if (std::ranges::find(kIgnoredTypes, type) != kIgnoredTypes.end()) continue;
-      if (is_estimated(topic, topics) || is_command(topic) || topic == kDecidedTopic) continue;
+      if (is_estimated(topic, topics) || is_command(topic) || is_mark(topic)) continue;
       if (subscribed_.insert(topic).second) transport_.subscribe(topic, type);
     }
     const Stopwatch timer;
@@ -113,16 +127,40 @@ class Gathering {
       // Time 0: a simulated clock that has not started.
       if (auto message = commands_.wait(kPoll); message && message->arrival > 0) {
         keep(*message, options_.transforms);
+        if (!messages_->empty() && message->arrival < messages_->back().arrival - kSecond) {
+          begin_again(message->arrival);
+        }
         messages_->push_back(std::move(*message));
       }
       if (!transport_.running()) return;
     }
-    if (span() <= kMaxGathered) return;
-    const Time oldest = messages_->back().arrival - kMaxGathered;
-    std::erase_if(*messages_, [&](const LiveMessage& message) {
-      return message.arrival < oldest && !message.connection->latching &&
-             message.connection->topic != kStaticTransformsTopic;
-    });
+    const Duration kept = std::max(kMaxGathered, options_.settle + kSecond);
+    if (span() > kept) forget(messages_->back().arrival - kept);
+  }
+
+  /// Forgets what came before `oldest`, which the observer sees; but not what is sent once.
+  void forget(Time oldest) {
+    LiveMessages kept, forgotten;
+    for (LiveMessage& message : *messages_) {
+      const bool old = message.arrival < oldest && !lasts(message);
+      message.arrival = old ? message.arrival : std::max(message.arrival, oldest);
+      (old ? forgotten : kept).push_back(std::move(message));
+    }
+    *messages_ = std::move(kept);
+    if (!options_.observer || forgotten.empty()) return;
+    forgot_ = true;
+    LiveSource(std::make_shared<LiveMessages>(std::move(forgotten)), {}).show(options_.observer);
+  }
+
+  /// The clock of arrivals was set back: what came before lies in its future.
+  void begin_again(Time now) {
+    std::erase_if(*messages_, [](const LiveMessage& message) { return !lasts(message); });
+    for (LiveMessage& message : *messages_) message.arrival = now;
+  }
+
+  /// Whether it is sent once.
+  static bool lasts(const LiveMessage& message) {
+    return message.connection->latching || message.connection->topic == kStaticTransformsTopic;
   }
 
   Result<RecordingReader> try_open() {
@@ -143,6 +181,9 @@ class Gathering {
       const bool needed = live.selects(topic) || topic == kStaticTransformsTopic;
       if (!options_.observer && !needed) transport_.unsubscribe(topic);
     }
+    if (forgot_) {
+      show_mark(options_.observer, kForgottenTopic, live.summary().start, transport_.format());
+    }
     live.go_live(options_.observer, options_.clocks);
     return reader;
   }
@@ -150,20 +191,20 @@ class Gathering {
   /// Why the messages are not enough; empty: they are.
   std::string missing_messages() {
     const std::string own = transport_.resolved("~odometry");
-    if (transport_.topics().contains(own)) {
+    if (transport_.preceded(own)) {
       return fmt::format(
-          "another program publishes {} (for 10 s after it was killed): end it, or "
-          "choose another --node",
+          "another program publishes {} (for 10 s after it was killed): end it, or choose another "
+          "--node",
           own);
     }
     if (span() >= options_.settle) return {};
     if (span() > 0) return fmt::format("{:.1f} s of messages so far", to_seconds(span()));
     if (transport_.format() == kRos1Format || !messages_->empty() || subscribed_.empty()) {
-      return "no messages yet";
+      return "no messages yet" + transport_.place();
     }
     return fmt::format(
         "no messages yet, though there are publishers of {} topics: is their clock set? DDS "
-        "drops what is sent from 2038 on",
+        "drops what is sent from 2038 on; with --source-time aims_play alone is heard",
         subscribed_.size());
   }
 
@@ -171,7 +212,7 @@ class Gathering {
   /// latest after `kCatchUp`: before, the estimator catches up with what was gathered.
   LiveSource::Wait following() {
     return [&transport = transport_, &commands = commands_, max_wait = options_.max_wait,
-            kept = options_.transforms, late = true,
+            kept = options_.transforms, late = true, since_look = Stopwatch(),
             first = std::optional<Time>()]() mutable -> std::optional<LiveMessage> {
       while (transport.running() && !commands.restarts()) {
         auto message = commands.wait(late ? 0.0 : kPoll);
@@ -179,6 +220,10 @@ class Gathering {
         if (late && (!message || message->arrival > *first + kCatchUp)) {
           transport.limit_wait(max_wait);
           late = false;
+        }
+        if (since_look.seconds() > kLookPeriod) {
+          since_look = Stopwatch();
+          subscribe_to_late_transforms(transport);
         }
         if (!message) continue;
         keep(*message, kept);
@@ -202,16 +247,17 @@ class Gathering {
   LiveTransforms before_;  ///< heard before this gathering
   std::shared_ptr<LiveMessages> messages_ = std::make_shared<LiveMessages>();
   std::set<std::string> subscribed_;
+  bool forgot_ = false;  ///< what the observer has seen
 };
 
 }  // namespace
 
-Result<RecordingReader> open_live_recording(Transport& transport, Commands& commands,
-                                            const LiveRecordingOptions& options) {
+Result<std::optional<RecordingReader>> open_live_recording(Transport& transport, Commands& commands,
+                                                           const LiveRecordingOptions& options) {
   transport.limit_wait(std::max(options.max_wait, Inbox::kMaxWaitLarge));  // while it decides
   Gathering gathering(transport, commands, options);
   auto reader = gathering.wait_to_open();
-  if (!reader) gathering.show();
+  if (!reader || !*reader) gathering.show();
   return reader;
 }
 

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "core/error.hpp"
@@ -33,9 +34,9 @@ struct LiveRecordingOptions {
 
 /// Gathers all topics of the network until topics, units and extrinsics can be decided as for a bag
 /// and `check_setup` passes; then, without an observer, only those that are used. Reading ends when
-/// the node is asked to end or to start anew. Error when the node is asked to end before, or after
-/// the timeout.
-Result<RecordingReader> open_live_recording(Transport& transport, Commands& commands,
-                                            const LiveRecordingOptions& options);
+/// the node is asked to end or to start anew. Nothing when the node is asked to end before; error
+/// after the timeout.
+Result<std::optional<RecordingReader>> open_live_recording(Transport& transport, Commands& commands,
+                                                           const LiveRecordingOptions& options);
 
 }  // namespace aims

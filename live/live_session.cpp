@@ -25,8 +25,14 @@ namespace {
 namespace fs = std::filesystem;
 
 Result<void> check_topics(const LiveConfig& config, const RecordingSetup& setup) {
-  if (!requirements_of(config.estimator, config.estimators).legs) return {};
-  return check_legs(setup, config.estimator, "live topics");
+  if (!requirements_of(config.estimator, config.estimators).legs || setup.has_legs) return {};
+  // Loads of feet that stand still tell nothing.
+  const bool learned = setup.leg_lack.find("learned") != std::string::npos;
+  return failure(fmt::format(
+      "{}estimator {} needs leg odometry, which is not found{}; name its topic (--set "
+      "recording.topics.leg_odometry=/...), or use an estimator without legs (--estimator lio)",
+      learned ? "let the robot walk: " : "", config.estimator,
+      setup.leg_lack.empty() ? "" : fmt::format(" ({})", setup.leg_lack)));
 }
 
 /// Whether it spoils the estimate; of an estimator whose needs are not known, all do.
@@ -117,11 +123,14 @@ class Session {
     if (!options_.record.empty()) {
       live.observer = [&](const BagMessage& message) { recorder->add(message); };
     }
-    auto reader = open_live_recording(transport_, commands_, live);
-    if (!reader) {
-      if (auto ok = recorder->close(); !ok) print_line("warning: " + ok.error().message);
-      return tl::unexpected(reader.error());
+    auto opened = open_live_recording(transport_, commands_, live);
+    if (!opened || !*opened) {
+      const auto recorded = recorder->close();
+      if (opened) return recorded;
+      if (!recorded) print_line("warning: " + recorded.error().message);
+      return tl::unexpected(opened.error());
     }
+    RecordingReader* reader = &**opened;
     const auto warnings = warnings_of(config_, reader->setup());
     for (const std::string& note : reader->setup().notes) print_line("note: " + note);
     for (const ReadingWarning& each : warnings) print_line("warning: " + each.text);

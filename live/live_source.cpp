@@ -60,30 +60,18 @@ void LiveSource::go_live(Observer observer, ClockWatch* clocks) {
   clocks_ = clocks;
   stamps_.emplace(connections_);
   observer_ = std::move(observer);
-  if (observer_) show_start();
+  if (!observer_) return;
+  const Time now = std::exchange(last_, summary_.start);
+  show(observer_);
+  // Where the gathered ones end: a replay decides from the same.
+  if (!connections_.empty()) show_mark(observer_, kDecidedTopic, last_, connections_[0].format);
+  last_ = now;
 }
 
-/// Shows the observer what was gathered, and where it ends: a replay decides from the same.
-void LiveSource::show_start() {
-  const Time now = std::exchange(last_, summary_.start);
+void LiveSource::show(const Observer& observer) {
   for (const LiveMessage& message : *gathered_) {
-    observer_(as_recorded(message, *find(*message.connection)));
+    observer(as_recorded(message, *find(*message.connection)));
   }
-  if (!connections_.empty()) {
-    const MessageFormat format = connections_.front().format;
-    const MessageType type =
-        format == kRos2Format ? *known_ros2_type("std_msgs/String") : string_type();
-    decided_ = {.id = static_cast<std::uint32_t>(connections_.size()),
-                .topic = kDecidedTopic,
-                .type = type.name,
-                .md5 = type.md5,
-                .definition = type.definition,
-                .format = format};
-    const auto text =
-        string_message("the live estimate decided from the messages before", format.serialization);
-    observer_({.connection = &decided_, .record_time = last_, .data = text.view()});
-  }
-  last_ = now;
 }
 
 /// The message after the last one; nullptr at the end.
@@ -117,6 +105,19 @@ void LiveSource::rewind() {
   if (live_) return;
   position_ = 0;
   last_ = summary_.start;
+}
+
+void show_mark(const LiveSource::Observer& observer, const char* topic, Time record_time,
+               MessageFormat format) {
+  const MessageType type =
+      format == kRos2Format ? *known_ros2_type("std_msgs/String") : string_type();
+  const BagConnection connection = {.topic = topic,
+                                    .type = type.name,
+                                    .md5 = type.md5,
+                                    .definition = type.definition,
+                                    .format = format};
+  const auto text = string_message("by a live estimate", format.serialization);
+  observer({.connection = &connection, .record_time = record_time, .data = text.view()});
 }
 
 Result<RecordingReader> open_live(std::unique_ptr<LiveSource> source,

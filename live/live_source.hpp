@@ -50,13 +50,15 @@ class LiveSource final : public MessageSource {
   /// ends; it must outlive the source.
   void go_live(Observer observer = {}, ClockWatch* clocks = nullptr);
 
+  /// Shows the gathered messages.
+  void show(const Observer& observer);
+
  private:
   const BagConnection* find(const BagConnection& connection) const;
   void announce(const BagConnection& connection);
   const LiveMessage* following();
   bool goes_on(const BagMessage& recorded, Time arrival);
   BagMessage as_recorded(const LiveMessage& message, const BagConnection& connection);
-  void show_start();
 
   std::shared_ptr<LiveMessages> gathered_;
   Wait wait_;
@@ -65,13 +67,16 @@ class LiveSource final : public MessageSource {
   std::optional<std::set<std::string>> selected_;  ///< nothing: all topics
   bool live_ = false;
   Observer observer_;
-  BagConnection decided_;  ///< of the message that says where the gathered ones end
   ClockWatch* clocks_ = nullptr;
   std::optional<MessageStamps> stamps_;  ///< for the clocks
   std::size_t position_ = 0;             ///< among the gathered messages
   LiveMessage current_;                  ///< the last message that was waited for
   Time last_ = 0;                        ///< record time of the last message read
 };
+
+/// Shows the observer a message without a publisher, whose topic says what it marks.
+void show_mark(const LiveSource::Observer& observer, const char* topic, Time record_time,
+               MessageFormat format);
 
 /// Opens the topics as those of a recording are: the halves of an IMU, and legs in messages of
 /// their own, are joined. `source` lives as long as the reader.

@@ -10,11 +10,11 @@
 
 namespace aims {
 
-Publications::Publications(Transport& transport, OdometryFrames frames, std::string name)
+Publications::Publications(Transport& transport, OdometryFrames frames, std::string estimator)
     : transport_(transport),
       serialization_(transport.format().serialization),
       frames_(std::move(frames)),
-      name_(std::move(name)),
+      estimator_(std::move(estimator)),
       odometry_(transport.advertise("~odometry", odometry_type(), false)),
       fast_(transport.advertise("~odometry_fast", odometry_type(), false)),
       cloud_(transport.advertise("~cloud", point_cloud_type(), false)),
@@ -60,7 +60,7 @@ void Publications::health(const HealthRow& row,
   constexpr std::uint8_t kLevels[] = {1, 0, 1, 2};  // starting, healthy, degraded, invalid
   DiagnosticContent content;
   content.level = kLevels[static_cast<int>(row.state)];
-  content.name = name_ + ": localization";
+  content.name = diagnostics_name(transport_.resolved("~odometry"));
   content.message = name_of(row.state);
   if (!row.reasons.empty()) {
     content.message += fmt::format(": {}", fmt::join(row.reasons, "; "));
@@ -69,6 +69,7 @@ void Publications::health(const HealthRow& row,
     figures.insert(figures.begin(),
                    {"position sigma [m]", fmt::format("{:.3f}", row.position_sigma)});
   }
+  figures.insert(figures.begin(), {"estimator", estimator_});
   content.values = std::move(figures);
   send(diagnostics_, diagnostics_message(header(row.stamp), content, serialization_));
 }

@@ -31,7 +31,7 @@ struct OdometryFrames {
 /// time is made only for those who listen.
 class Publications {
  public:
-  Publications(Transport& transport, OdometryFrames frames, std::string name);
+  Publications(Transport& transport, OdometryFrames frames, std::string estimator);
 
   /// A pose of the trajectory; `motion`: the estimate at about that instant, whose twist and
   /// covariances are published, none: the mean twist since the last pose.
@@ -56,7 +56,7 @@ class Publications {
   Transport& transport_;
   Serialization serialization_;
   OdometryFrames frames_;
-  std::string name_;
+  std::string estimator_;
   std::size_t odometry_ = 0;
   std::size_t fast_ = 0;
   std::size_t cloud_ = 0;

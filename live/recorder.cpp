@@ -26,7 +26,13 @@ Result<Recorder> Recorder::create(const std::filesystem::path& file, MessageForm
 }
 
 void Recorder::add(const BagMessage& message) {
-  if (converter_ && state_) state_ = converter_->write(message);
+  if (!converter_ || !state_) return;
+  const BagConnection& from = *message.connection;
+  const auto [place, added] = connections_.try_emplace({from.topic, from.type, from.md5}, from);
+  if (added) place->second.id = static_cast<std::uint32_t>(connections_.size());
+  BagMessage own = message;
+  own.connection = &place->second;
+  state_ = converter_->write(own);
 }
 
 Result<void> Recorder::close() {

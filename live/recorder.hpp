@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "core/error.hpp"
 #include "recordings/bag/message_sink.hpp"
@@ -31,6 +34,8 @@ class Recorder {
  private:
   std::unique_ptr<MessageSink> sink_;
   std::optional<MessageConverter> converter_;
+  /// By topic, type and its sum: ids of the messages are those of their sources.
+  std::map<std::array<std::string, 3>, BagConnection> connections_;
   Result<void> state_;
 };
 

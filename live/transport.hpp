@@ -14,6 +14,11 @@
 
 namespace aims {
 
+/// The name of a node's health on /diagnostics, from that of its topic ~odometry.
+inline std::string diagnostics_name(const std::string& odometry) {
+  return odometry.substr(1, odometry.rfind('/') - 1) + ": localization";
+}
+
 /// A node of a network that receives and publishes messages of any type, as bytes. There is one in
 /// a process: it takes the signals that end a program.
 class Transport {
@@ -25,6 +30,12 @@ class Transport {
 
   /// False once the node was asked to end: Ctrl-C, SIGTERM, SIGHUP, or by the network.
   virtual bool running() const;
+
+  /// Whether a node that began before this one publishes the topic.
+  virtual bool preceded(const std::string& topic) { return topics().contains(topic); }
+
+  /// Where it listens, for who hears nothing.
+  virtual std::string place() const { return ""; }
 
   /// Types of the topics that other nodes publish, by topic.
   virtual std::map<std::string, std::string> topics() = 0;

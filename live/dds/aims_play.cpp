@@ -75,7 +75,10 @@ class PacedSink final : public MessageSink {
   Result<void> close() override {
     const std::size_t unanswered = transport_.wait_for_subscribers(kLastWait);
     if (blocked_ > 0) {
-      warn(fmt::format("{} messages were not sent: a subscriber is too slow", blocked_));
+      warn(
+          fmt::format("{} messages were not sent: a subscriber is too slow, or they are shorter "
+                      "than the header of CDR",
+                      blocked_));
     }
     if (unsendable_ > 0) {
       warn(

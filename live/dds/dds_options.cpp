@@ -22,15 +22,19 @@ std::string is_domain(const std::string& text) {
                             kMaxDomain, text);
 }
 
+constexpr std::size_t kLongestNode = 200;  ///< DDS allows 255 characters for a topic
+
 /// What ROS 2 takes as a namespace: words of letters, digits and _, joined by /.
 std::string is_node_name(const std::string& name) {
   const bool fits = std::ranges::all_of(
       name, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '/'; });
-  const bool joined = !name.empty() && name.front() != '/' && name.back() != '/' &&
-                      name.find("//") == std::string::npos &&
+  const bool joined = !name.empty() && name.size() <= kLongestNode && name.front() != '/' &&
+                      name.back() != '/' && name.find("//") == std::string::npos &&
                       std::isdigit(static_cast<unsigned char>(name.front())) == 0;
-  return fits && joined ? ""
-                        : fmt::format("expected letters, digits and _, e.g. aims, got '{}'", name);
+  return fits && joined
+             ? ""
+             : fmt::format("expected at most {} letters, digits and _, e.g. aims, got '{}'",
+                           kLongestNode, name);
 }
 
 }  // namespace

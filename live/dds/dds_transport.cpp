@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdlib>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "live/dds/dds_names.hpp"
@@ -20,24 +21,42 @@ namespace {
 
 constexpr int kHistory = 100;       ///< messages of a topic that wait in DDS
 constexpr std::size_t kBatch = 16;  ///< samples per call of DDS
+constexpr std::size_t kHeader = 4;  ///< of CDR [bytes]
+
+constexpr Duration kOwnClock = kSecond;  ///< times of sending by this computer's clock are as near
 
 constexpr auto kWatchPeriod = std::chrono::seconds(1);
+
+constexpr const char* kConfiguration = "CYCLONEDDS_URI";
+/// What ROS_LOCALHOST_ONLY=1 means.
+constexpr const char* kThisComputer =
+    "<CycloneDDS><Domain><General><Interfaces><NetworkInterface address=\"127.0.0.1\"/>"
+    "</Interfaces><AllowMulticast>false</AllowMulticast></General><Discovery>"
+    "<ParticipantIndex>auto</ParticipantIndex><Peers><Peer Address=\"127.0.0.1\"/></Peers>"
+    "</Discovery></Domain></CycloneDDS>";
 
 /// A receive buffer that holds a cloud: with CycloneDDS's own of 1 MB, what does not fit is sent
 /// again, late. A writer keeps what a subscriber that was killed does not acknowledge until that is
 /// noticed, after 10 s; by default 500 kB, then all others wait. It asks for acknowledgements every
 /// 10 ms, for those who wait for them. What CYCLONEDDS_URI says takes precedence.
-void configure_dds() {
-  constexpr const char* kVariable = "CYCLONEDDS_URI";
-  const std::string own =
-      "<CycloneDDS><Domain><Internal><SocketReceiveBufferSize max=\"16 MiB\"/>"
-      "<Watermarks><WhcHigh>512 MiB</WhcHigh></Watermarks>"
-      "<HeartbeatInterval minsched=\"10 ms\">10 ms</HeartbeatInterval>"
-      "</Internal></Domain></CycloneDDS>";
-  const char* set = std::getenv(kVariable);
+constexpr std::string_view kOwn =
+    "<CycloneDDS><Domain><Internal><SocketReceiveBufferSize max=\"16 MiB\"/>"
+    "<Watermarks><WhcHigh>512 MiB</WhcHigh></Watermarks>"
+    "<HeartbeatInterval minsched=\"10 ms\">10 ms</HeartbeatInterval>"
+    "</Internal></Domain></CycloneDDS>,";
+
+/// What the user says.
+std::string given_configuration() {
+  const char* set = std::getenv(kConfiguration);
   const std::string given = set == nullptr ? "" : set;
-  if (given.starts_with(own)) return;
-  setenv(kVariable, (given.empty() ? own : own + "," + given).c_str(), 1);
+  return given.starts_with(kOwn) ? given.substr(kOwn.size()) : given;
+}
+
+void configure_dds() {
+  const char* here = std::getenv("ROS_LOCALHOST_ONLY");
+  std::string given = given_configuration();
+  if (given.empty() && here != nullptr && std::string_view(here) == "1") given = kThisComputer;
+  setenv(kConfiguration, fmt::format("{}{}", kOwn, given).c_str(), 1);
 }
 
 using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
@@ -67,6 +86,18 @@ const char* name_of_policy(std::uint32_t policy) {
 
 }  // namespace
 
+/// When a message arrived. With `source_time` one that was sent by this computer's clock is none of
+/// a recording that is played: it comes with what was played last; 0: nothing yet.
+Time DdsTransport::arrival_of(Time sent, bool latching) {
+  const Time now = wall_time();
+  if (!options_.source_time) return now;
+  const bool of_player = std::abs(now - sent) > kOwnClock;
+  // A latched message may have been sent by this computer's clock long ago.
+  if (latching) return of_player && played_ == 0 ? std::max<Time>(sent, 1) : played_.load();
+  if (of_player) played_ = std::max<Time>(sent, 1);
+  return played_;
+}
+
 /// Called by DDS, in its own threads, when a reader has data.
 void DdsTransport::take_samples(const Subscription& subscription, Entity reader) {
   std::array<ddsi_serdata*, kBatch> samples{};
@@ -78,9 +109,8 @@ void DdsTransport::take_samples(const Subscription& subscription, Entity reader)
       const auto place = static_cast<std::size_t>(i);
       const auto bytes = raw_bytes(*samples[place]);
       if (infos[place].valid_data && !bytes.empty()) {
-        const Time sent = std::max<Time>(infos[place].source_timestamp, 1);
         inbox_.push({subscription.connection,
-                     options_.source_time ? sent : wall_time(),
+                     arrival_of(infos[place].source_timestamp, subscription.connection->latching),
                      {bytes.begin(), bytes.end()}});
       }
       ddsi_serdata_unref(samples[place]);
@@ -194,6 +224,19 @@ std::map<std::string, std::string> DdsTransport::topics() {
   return discovery_.topics();
 }
 
+bool DdsTransport::preceded(const std::string& topic) {
+  discovery_.update();
+  return discovery_.oldest(topic) < began_;
+}
+
+std::string DdsTransport::place() const {
+  const std::string given = given_configuration();
+  return fmt::format(" on domain {}, {}", options_.domain,
+                     given.empty()            ? "on the interface that CycloneDDS chooses"
+                     : given == kThisComputer ? "on this computer alone (ROS_LOCALHOST_ONLY)"
+                                              : fmt::format("{}={}", kConfiguration, given));
+}
+
 std::string DdsTransport::resolved(const std::string& topic) const {
   if (topic.starts_with("~")) return fmt::format("/{}/{}", options_.node, topic.substr(1));
   return topic.starts_with("/") ? topic : fmt::format("/{}", topic);
@@ -236,6 +279,7 @@ std::size_t DdsTransport::advertise(const std::string& topic, const MessageType&
   const std::string name = resolved(topic);
   const dds_entity_t made = make_topic(name, type.name);
   const Qos qos = quality({true, latching}, options_.max_blocking);
+  dds_qset_userdata(qos.get(), &began_, sizeof(began_));
   if (options_.keep_all) dds_qset_history(qos.get(), DDS_HISTORY_KEEP_ALL, 0);
   const dds_entity_t writer =
       made > 0 ? dds_create_writer(participant_, made, qos.get(), nullptr) : made;
@@ -250,6 +294,7 @@ void DdsTransport::publish(std::size_t publisher, std::span<const std::byte> dat
 
 bool DdsTransport::publish_at(std::size_t publisher, Time time, std::span<const std::byte> data) {
   const dds_entity_t writer = writers_.at(publisher);
+  if (data.size() < kHeader) return false;  // it would break the stream
   return writer > 0 && dds_write_ts(writer, &data, time) == DDS_RETCODE_OK;
 }
 

@@ -17,8 +17,8 @@ namespace aims {
 struct DdsOptions {
   std::uint32_t domain = 0;
   std::string node = "aims";  ///< namespace of "~"
-  /// Arrivals are the times at which publishers sent, by their clocks: those of the record for
-  /// `aims_play`. Else this machine's time of reception.
+  /// Arrivals are the times at which `aims_play` sent, those of the record; 0 before it has sent
+  /// anything. Else this machine's time of reception.
   bool source_time = false;
   bool keep_all = false;       ///< publishing waits rather than that a subscriber misses anything
   double max_blocking = 0.02;  ///< how long publishing waits for slow subscribers [s]
@@ -35,6 +35,8 @@ class DdsTransport final : public Transport {
 
   MessageFormat format() const override { return kRos2Format; }
   std::map<std::string, std::string> topics() override;
+  bool preceded(const std::string& topic) override;
+  std::string place() const override;
   std::string resolved(const std::string& topic) const override;
   void subscribe(const std::string& topic, const std::string& type) override;
   void unsubscribe(const std::string& topic) override;
@@ -47,7 +49,8 @@ class DdsTransport final : public Transport {
   bool heard(std::size_t publisher) const override { return subscribers(publisher) > 0; }
   void publish(std::size_t publisher, std::span<const std::byte> data) override;
 
-  /// As `publish`, with that time of sending, >= 0. False when the subscribers are too slow.
+  /// As `publish`, with that time of sending, >= 0. False when the subscribers are too slow,
+  /// or for what is no message of CDR.
   bool publish_at(std::size_t publisher, Time time, std::span<const std::byte> data);
   /// Subscribers of a topic that this node publishes.
   std::size_t subscribers(std::size_t publisher) const;
@@ -69,6 +72,7 @@ class DdsTransport final : public Transport {
   explicit DdsTransport(DdsOptions options) : options_(std::move(options)) {}
   void open(Subscription& subscription);
   static void close(Subscription& subscription);
+  Time arrival_of(Time sent, bool latching);
   void take_samples(const Subscription& subscription, Entity reader);
   void refuse(Subscription& subscription, std::uint32_t policy);
   void reopen_refused();
@@ -76,12 +80,14 @@ class DdsTransport final : public Transport {
   Entity make_topic(const std::string& topic, const std::string& type) const;
 
   DdsOptions options_;
+  Time began_ = wall_time();
   Entity participant_ = 0;
   Discovery discovery_;
   std::map<std::string, std::unique_ptr<Subscription>> subscriptions_;
   std::vector<Entity> writers_;
   std::chrono::steady_clock::time_point watched_;
   std::atomic<std::size_t> lost_ = 0;
+  std::atomic<Time> played_ = 0;  ///< time of sending of what was played last; 0: nothing
 };
 
 }  // namespace aims

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "live/dds/dds_names.hpp"
 
@@ -20,6 +21,18 @@ OfferedQuality quality_of(const dds_qos_t* qos) {
   dds_qget_reliability(qos, &reliability, &blocking);
   dds_qget_durability(qos, &durability);
   return {reliability == DDS_RELIABILITY_RELIABLE, durability != DDS_DURABILITY_VOLATILE};
+}
+
+/// What a node of this project says of itself.
+Time began(const dds_qos_t* qos) {
+  void* data = nullptr;
+  std::size_t size = 0;
+  Time time = 0;
+  if (dds_qget_userdata(qos, &data, &size) && size == sizeof(time)) {
+    std::memcpy(&time, data, sizeof(time));
+  }
+  dds_free(data);
+  return time;
 }
 
 }  // namespace
@@ -50,7 +63,8 @@ void Discovery::update() {
       const auto topic = ros_topic(endpoint.topic_name);
       const auto type = ros_type(endpoint.type_name);
       if (!topic || !type) continue;
-      offers_[infos[i].instance_handle] = {*topic, *type, aims::quality_of(endpoint.qos)};
+      offers_[infos[i].instance_handle] = {*topic, *type, aims::quality_of(endpoint.qos),
+                                           began(endpoint.qos)};
     }
     dds_return_loan(reader_, samples.data(), count);
   }
@@ -72,6 +86,14 @@ std::string Discovery::other_type(const std::string& topic, const std::string& t
 std::size_t Discovery::publishers(const std::string& topic) const {
   return static_cast<std::size_t>(std::ranges::count_if(
       offers_, [&](const auto& offer) { return offer.second.topic == topic; }));
+}
+
+Time Discovery::oldest(const std::string& topic) const {
+  Time oldest = std::numeric_limits<Time>::max();
+  for (const auto& [instance, offer] : offers_) {
+    if (offer.topic == topic) oldest = std::min(oldest, offer.began);
+  }
+  return oldest;
 }
 
 OfferedQuality Discovery::quality_of(const std::string& topic) const {

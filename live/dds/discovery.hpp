@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/time.hpp"
 
 namespace aims {
 
@@ -35,6 +36,10 @@ class Discovery {
   /// How many publish the topic.
   std::size_t publishers(const std::string& topic) const;
 
+  /// When the first node that publishes the topic began, by its own word; 0: before all others,
+  /// where it does not say so. The end of time where none publishes it.
+  Time oldest(const std::string& topic) const;
+
   /// What all publishers of the topic offer; the least where there are none.
   OfferedQuality quality_of(const std::string& topic) const;
 
@@ -43,6 +48,7 @@ class Discovery {
     std::string topic;
     std::string type;
     OfferedQuality quality;
+    Time began = 0;  ///< of its node
   };
 
   std::int32_t reader_ = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "live/transport.hpp"
 #include "recordings/clouds/point_table.hpp"
 #include "recordings/messages/message_values.hpp"
 
@@ -69,12 +70,12 @@ bool WatchState::take_cloud(const MessageView& view) {
   return true;
 }
 
-/// Of several nodes that publish on /diagnostics, those of a localization.
+/// Of several nodes that publish on /diagnostics, that of the odometry.
 bool WatchState::take_diagnostics(const MessageView& view) {
   const auto all = view.messages("status");
   if (!all) return false;
   for (const MessageView& status : *all) {
-    if (!status.text("name").value_or("").ends_with(": localization")) continue;
+    if (status.text("name").value_or("") != diagnostics_name(node_)) continue;
     level_ = static_cast<int>(status.number("level").value_or(3.0));
     health_ = status.text("message").value_or("");
     values_.clear();

@@ -26,6 +26,8 @@ struct BagOpenOptions {
   std::vector<std::filesystem::path> with = {};
   /// Put files of recorders whose clocks differ on one clock, by the stamps of their messages.
   bool one_clock = false;
+  /// Leave out what a live estimate heard before that of which it decided.
+  bool as_live = false;
 };
 
 /// A file whose messages lie in chunks.

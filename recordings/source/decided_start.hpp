@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +13,9 @@ namespace aims {
 
 /// Topic of the message that a live estimate records once it has decided topics, units and clocks.
 inline constexpr const char* kDecidedTopic = "/aims/decided";
+
+/// Topic of the message behind what a live estimate had heard, but no longer had when it decided.
+inline constexpr const char* kForgottenTopic = "/aims/forgotten";
 
 /// Whether a live estimate made the recording.
 bool is_of_live_estimate(const MessageSource& recording);
@@ -35,5 +39,11 @@ class DecidedStart final : public MessageSource {
   MessageSource& recording_;
   bool ended_ = false;
 };
+
+/// Whether it had to forget something.
+bool has_forgotten(const MessageSource& recording);
+
+/// Leaves out what is before the message on `kForgottenTopic`, if there is one.
+Result<void> leave_out_forgotten(std::unique_ptr<MessageSource>& recording);
 
 }  // namespace aims

@@ -23,6 +23,7 @@
 #include "recordings/rosbag2/rosbag2_reader.hpp"
 #include "recordings/rosbag2/rosbag2_writer.hpp"
 #include "recordings/source/compressed_clouds.hpp"
+#include "recordings/source/decided_start.hpp"
 #include "recordings/source/joined_legs.hpp"
 #include "recordings/source/message_stamps.hpp"
 #include "recordings/source/recorder_clocks.hpp"
@@ -281,8 +282,12 @@ Result<std::unique_ptr<MessageSource>> open_sensor_recording(const fs::path& fil
                                                              BagOpenOptions options,
                                                              bool without_lidar) {
   options.one_clock = true;
+  const bool as_live = options.as_live;
   auto source = open_recording(file, std::move(options));
   if (!source) return source;
+  if (as_live) {
+    if (auto ok = leave_out_forgotten(*source); !ok) return tl::unexpected(ok.error());
+  }
   if (auto restored = restore_record_times(*source); !restored) {
     return tl::unexpected(restored.error());
   }

@@ -476,6 +476,7 @@ void RecordingReader::Impl::finish(std::vector<Delivery>& out) {
 Result<RecordingReader> RecordingReader::open(const std::filesystem::path& file,
                                               const RecordingConfig& config,
                                               BagOpenOptions options) {
+  options.as_live = config.as_live;
   auto source = open_sensor_recording(file, options, config.topics.lidar == "none");
   if (!source) return tl::unexpected(source.error());
   return open(std::move(*source), config);
@@ -495,6 +496,10 @@ Result<RecordingReader> RecordingReader::open(std::unique_ptr<MessageSource> bag
     notes.push_back(
         "units, clocks and contacts: decided as by the live estimate that recorded it, from what "
         "it had heard (as_live)");
+    if (has_forgotten(*bag)) {
+      notes.push_back(
+          "what the live estimate heard long before it could start is left out (as_live)");
+    }
   }
   auto plan = plan_recording(as_live ? start : *bag, config, *topics, *channels, std::move(notes));
   if (!plan) return tl::unexpected(plan.error());

@@ -64,5 +64,13 @@ TEST(LiveConfig, RejectsAnUnknownEstimator) {
   EXPECT_NE(config.error().message.find("did you mean 'aims'"), std::string::npos);
 }
 
+TEST(LiveConfig, OneFrameForOdometryAndBodyIsAnError) {
+  LiveOptions options;
+  options.body_frame = options.odom_frame;
+  const auto config = load_live_config(options);
+  ASSERT_FALSE(config);
+  EXPECT_NE(config.error().message.find("--body-frame"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace aims

@@ -29,7 +29,7 @@ TEST(LiveOptions, HelpIsPrinted) {
 
 TEST(LiveOptions, BadArgumentsAreOneLine) {
   for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"--fast"}, {"--settle", "0"}, {"stray"}}) {
+       {std::vector<std::string>{"--fast"}, {"--settle", "0"}, {"--odom-frame", ""}, {"stray"}}) {
     const auto [exit_code, said] = run(arguments);
     EXPECT_EQ(exit_code, 2);
     EXPECT_TRUE(said.ends_with("; see --help\n")) << said;

@@ -41,5 +41,17 @@ TEST(DdsOptions, NoNumberFrom0To232IsAnError) {
   EXPECT_FALSE(domain_of({"--domain", "233"}, nullptr));
 }
 
+TEST(DdsOptions, ANodeNameFitsATopicOfDds) {
+  for (const auto& [length, code] : {std::pair(200, 0), std::pair(201, 2)}) {
+    CLI::App app("", "program");
+    DdsOptions options;
+    add_node_option(app, options, "");
+    testing::internal::CaptureStderr();
+    const std::string name(static_cast<std::size_t>(length), 'a');
+    EXPECT_EQ(run_program(app, {"--node", name}, [] { return Result<void>(); }), code);
+    testing::internal::GetCapturedStderr();
+  }
+}
+
 }  // namespace
 }  // namespace aims

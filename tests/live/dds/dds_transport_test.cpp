@@ -100,6 +100,43 @@ TEST_F(DdsTransportTest, ArrivalIsTheTimeOfSendingToTheNanosecondWhereAskedFor) 
   }
 }
 
+TEST_F(DdsTransportTest, WhatIsSentByThisComputersClockComesWithWhatWasPlayedLast) {
+  receiver_ = connect(true);
+  const std::size_t topic = sender_->advertise("/imu/data", {"sensor_msgs/Imu", {}, {}}, false);
+  subscribe("/imu/data", "sensor_msgs/Imu");
+  ASSERT_TRUE(eventually([&] { return sender_->subscribers(topic) == 1; }));
+  const auto arrival = [&](Time sent) {
+    EXPECT_TRUE(sender_->publish_at(topic, sent, payload(100, 7)));
+    const auto message = received();
+    return message ? message->arrival : -1;
+  };
+  EXPECT_EQ(arrival(wall_time()), 0) << "nothing was played";
+  EXPECT_EQ(arrival(5 * kSecond), 5 * kSecond);
+  EXPECT_EQ(arrival(wall_time()), 5 * kSecond);
+  EXPECT_EQ(arrival(6 * kSecond), 6 * kSecond);
+}
+
+TEST_F(DdsTransportTest, TheNodeThatBeganFirstPrecedesTheOther) {
+  sender_->advertise("/aims/odometry", {"nav_msgs/Odometry", {}, {}}, false);
+  receiver_->advertise("/aims/odometry", {"nav_msgs/Odometry", {}, {}}, false);
+  EXPECT_TRUE(eventually([&] { return receiver_->preceded("/aims/odometry"); }));
+  EXPECT_TRUE(eventually([&] { return sender_->topics().contains("/aims/odometry"); }));
+  EXPECT_FALSE(sender_->preceded("/aims/odometry"));
+}
+
+TEST_F(DdsTransportTest, BytesThatAreNoMessageAreNotSent) {
+  const std::size_t topic = sender_->advertise("/imu/data", {"sensor_msgs/Imu", {}, {}}, false);
+  EXPECT_FALSE(sender_->publish_at(topic, 1, std::vector<std::byte>(3)));
+  EXPECT_TRUE(sender_->publish_at(topic, 1, std::vector<std::byte>(4)));
+}
+
+TEST_F(DdsTransportTest, StaysOnThisComputerWhereRosDoes) {
+  unsetenv("CYCLONEDDS_URI");
+  setenv("ROS_LOCALHOST_ONLY", "1", 1);
+  EXPECT_NE(connect()->place().find("on this computer alone"), std::string::npos);
+  unsetenv("ROS_LOCALHOST_ONLY");
+}
+
 TEST_F(DdsTransportTest, LateSubscribersReceiveWhatALatchingTopicHeld) {
   const std::size_t topic = sender_->advertise("/tf_static", {"tf2_msgs/TFMessage", {}, {}}, true);
   const auto sent = payload(64, 3);

@@ -67,11 +67,13 @@ TEST_F(WatchStateTest, ThinsTheScanAndKeepsThePlaces) {
   EXPECT_EQ((std::vector<int>{scan[0], scan[1], scan[2]}), (std::vector<int>{125, -250, 75}));
 }
 
-TEST_F(WatchStateTest, TakesTheHealthOfLocalizationAlone) {
+TEST_F(WatchStateTest, TakesTheHealthOfItsNodeAlone) {
   DiagnosticContent other{.level = 2, .name = "motor", .message = "hot", .values = {}};
   take("diagnostic_msgs/DiagnosticArray", diagnostics_message({}, other, Serialization::kCdr));
+  other.name = "b: localization";
+  take("diagnostic_msgs/DiagnosticArray", diagnostics_message({}, other, Serialization::kCdr));
   EXPECT_EQ(state()["health"]["text"], "");
-  DiagnosticContent own{1, "aims_d: localization", "degraded: no legs", {{"messages lost", "3"}}};
+  DiagnosticContent own{1, "aims: localization", "degraded: no legs", {{"messages lost", "3"}}};
   take("diagnostic_msgs/DiagnosticArray", diagnostics_message({}, own, Serialization::kCdr));
   EXPECT_EQ(state()["health"], Json::parse(R"({"level": 1, "text": "degraded: no legs",
                             "values": [["messages lost", "3"]]})"));
