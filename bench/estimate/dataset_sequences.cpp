@@ -167,6 +167,7 @@ FoundFile file_of(const std::vector<std::string>& patterns, const DatasetTruth& 
 std::string lack_of(const std::vector<std::string>& patterns, const DatasetTruth& truth,
                     const DatasetSequence& sequence, const FoundFile& found) {
   if (!found.several.empty()) return found.several + "; --set truth.files=[...] names one";
+  if (patterns.empty()) return "no file is named";
   const std::string names = fmt::format("{}", fmt::join(patterns, ", "));
   return "looked for " + filled(filled(names, "{sequence}", sequence.name), "{name}",
                                 short_name(sequence.name, truth.name_without));

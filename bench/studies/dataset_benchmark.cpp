@@ -358,6 +358,7 @@ std::vector<std::string> benchmark_notes(const DatasetBenchmark& benchmark) {
           ? std::string("published: no figures were read in a source that could be checked")
           : fmt::format("published: {}", profile.published_source),
       fmt::format("cite: {}", profile.citation),
+      fmt::format("data: {}; licence: {}", profile.url, profile.licence),
       fmt::format("this profile is tested on {}", profile.tested)};
   notes.insert(notes.end(), profile.notes.begin(), profile.notes.end());
   for (std::string& each : sequence_notes(benchmark)) notes.push_back(std::move(each));

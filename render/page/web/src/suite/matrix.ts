@@ -138,7 +138,7 @@ function cell({ data, row, view, shade, best, open }: Cells, estimator: string):
   const why = failureCount(reasonsOf(data, row.name, estimator), diverged, summary.runs);
   const of = diverged > 0 ? `✕ ${why}` : `${summary.runs} of ${summary.runs}`;
   const interval = intervalText(row, estimator, view);
-  const amount = isNumber(value) ? Math.round(100 * shade(value)) : 0;
+  const amount = isNumber(value) ? Math.round(100 * shade(value)) : view.score === kSuccessRate ? 100 : 0;
   const button = h("button", {
     type: "button", class: "cell", tabindex: -1,
     "aria-label": `${row.name}, ${estimator}: ${text === kNone ? "no value" : text + part}` +
