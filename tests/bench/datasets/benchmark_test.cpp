@@ -331,6 +331,19 @@ TEST_F(Benchmark, Hilti2022HasControlPointsOfItsTip) {
   EXPECT_LE(score, 100.0);
 }
 
+TEST_F(Benchmark, Hilti2022HasPosesOfItsImuWithoutTheLeverArm) {
+  Eigen::Matrix3d R;
+  R << 0, -1, 0, -1, 0, 0, 0, 0, -1;
+  test::DataSet set{"/hesai/pandar", "PandarXT-32", "/alphasense/imu", "imu_sensor_frame",
+                    CloudLayout::kHesai};
+  set.T_imu_lidar = mount(R, {-0.001, -0.00855, 0.055});
+  sequence(set, "exp04_construction_upper_level");
+  ASSERT_TRUE(
+      write_tum(data() / "exp_04_construction_upper_level_imu.txt", truth({0, 0, 0}, true)));
+  EXPECT_LT(score_of("hilti22_imu", "exp04_construction_upper_level"), kRight);
+  EXPECT_EQ(results()["unit"], "m");
+}
+
 TEST_F(Benchmark, LegKiloStampsTheEndOfAScanAndEndsWhereItBegan) {
   test::DataSet set{"/points_raw", "velodyne", "/imu_raw", "imu"};
   set.stamped_at_end = true;
