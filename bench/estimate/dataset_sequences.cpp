@@ -168,9 +168,16 @@ std::string lack_of(const std::vector<std::string>& patterns, const DatasetTruth
                     const DatasetSequence& sequence, const FoundFile& found) {
   if (!found.several.empty()) return found.several + "; --set truth.files=[...] names one";
   if (patterns.empty()) return "no file is named";
+  const auto is_general = [](const std::string& each) {
+    return each.find("{sequence}") == std::string::npos && each.find("{name}") == std::string::npos;
+  };
   const std::string names = fmt::format("{}", fmt::join(patterns, ", "));
-  return "looked for " + filled(filled(names, "{sequence}", sequence.name), "{name}",
-                                short_name(sequence.name, truth.name_without));
+  return fmt::format("looked for {}{}",
+                     filled(filled(names, "{sequence}", sequence.name), "{name}",
+                            short_name(sequence.name, truth.name_without)),
+                     std::ranges::all_of(patterns, is_general)
+                         ? ", which without {sequence} is looked for in its own folder alone"
+                         : "");
 }
 
 /// Whether the truth states the end of that sequence.

@@ -181,6 +181,19 @@ TEST_F(Profiles, SeveralTruthsOfOnePatternAreNamedAndNoneIsTaken) {
       << found[0];
 }
 
+TEST_F(Profiles, ANameThatIsOfNoSequenceIsLookedForInItsOwnFolder) {
+  const auto profile = load("truth: {files: [poses.tum]}\n");
+  put("data/day.bag");
+  put("data/night/a.bag");
+  put("data/night/poses.tum");
+  put("data/poses.tum");
+  const Lines found = truths(*profile);
+  EXPECT_TRUE(
+      holds(found[0], "poses.tum, which without {sequence} is looked for in its own folder"))
+      << found[0];
+  EXPECT_EQ(found[1], "night: night/poses.tum");
+}
+
 TEST_F(Profiles, PublishedNamesFindTheirTruths) {
   put("data/2023-08-08-17-12-37-tunnel_s.bag");
   put("data/2023-08-08-17-50-31-tunnel_d.bag");
