@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
@@ -64,6 +65,11 @@ Result<Answer> benchmark_command(const BenchmarkArguments& arguments) {
   if (sequences) sequences = chosen(std::move(*sequences), arguments.sequences);
   if (!sequences) return tl::unexpected(sequences.error());
   if (shared.out.empty()) shared.out = (fs::path("out") / (profile->name + "-benchmark")).string();
+  print_out("{}, score {}\n", profile->title, benchmark_score_text(*profile));
+  for (const DatasetSequence& each : *sequences) {
+    if (!each.lack.empty()) print_out("{} will not be scored: {}\n", each.name, each.lack);
+  }
+  std::fflush(stdout);  // before what the run says of itself
   watch_interrupt();
   JobDisplay display(shared.quiet);
   const auto done = run_dataset_benchmark(std::move(*profile), std::move(*sequences),

@@ -121,6 +121,16 @@ void describe(Fields& f, ExtrinsicConfig& c) {
          dimensionless("calibration: Kalibr, T_A_B in YAML, Ouster metadata, URDF, launch file"));
   f.texts("file_frames", c.file_frames,
           dimensionless("[IMU, sensor] as the file names them; empty: recognized"));
+  f.idle_if(c.file.empty(), "file names no calibration", {"file_frames"});
+  f.idle_if(!c.file.empty(), "the file names both frames", {"direction"});
+  f.idle_if(!c.quaternion_xyzw.empty(), "quaternion_xyzw is given", {"rotation_rpy_deg"});
+  f.idle_if(!c.quaternion_wxyz.empty(), "quaternion_wxyz is given",
+            {"rotation_rpy_deg", "quaternion_xyzw"});
+  f.idle_if(!c.rotation_matrix.empty(), "rotation_matrix is given",
+            {"rotation_rpy_deg", "quaternion_xyzw", "quaternion_wxyz"});
+  f.idle_if(
+      !c.matrix.empty(), "matrix is given",
+      {"translation", "rotation_rpy_deg", "rotation_matrix", "quaternion_xyzw", "quaternion_wxyz"});
 }
 
 void describe(Fields& f, RecordingConfig& c) {

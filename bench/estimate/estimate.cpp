@@ -328,6 +328,9 @@ Result<EstimateConfig> load_estimate_config(const std::filesystem::path& file,
   if (auto specs = check_estimator_specs(config.run); !specs) {
     return failure("run: " + specs.error().message);
   }
+  if (auto right = check_extrinsics(config.recording, assigned); !right) {
+    return tl::unexpected(right.error());
+  }
   const bool chosen = std::ranges::any_of(overrides, is_run_setting);
   const auto acts =
       check_effects(fields_of(config), std::move(assigned), chosen, config.run, config.estimators);

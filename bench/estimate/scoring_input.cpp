@@ -248,6 +248,7 @@ Result<void> set_markers(const ScoringRequest& request, ScoringInput& input) {
   input.truth.has_attitude = numbers_of(request.end_pose).size() == 7;
   input.scoring.association = Association::kAtTruth;
   input.scoring.anchor = AlignmentKind::kStartPose;
+  input.is_end_alone = true;
   return {};
 }
 
@@ -293,6 +294,12 @@ void resolve_truth(const ScoringRequest& request, ScoringInput& input) {
       truth.size(), to_seconds(middle)));
 }
 
+/// The frame in which points of the body are given.
+Result<Pose> lever_frame_of(const ScoringRequest& request) {
+  if (request.lever_frame.empty()) return Pose();
+  return pose_of("lever_frame", request.lever_frame, false);
+}
+
 /// Moves the estimates to the points that were measured, each at its stamp.
 Result<void> apply_lever_arms(const ScoringRequest& request, ScoringInput& input) {
   if (request.lever_arms.empty()) return {};
@@ -301,8 +308,7 @@ Result<void> apply_lever_arms(const ScoringRequest& request, ScoringInput& input
   if (points->trajectory.empty()) {
     return failure(request.lever_arms + ": expected the positions of control points, found none");
   }
-  Result<Pose> frame = Pose();
-  if (!request.lever_frame.empty()) frame = pose_of("lever_frame", request.lever_frame, false);
+  const auto frame = lever_frame_of(request);
   if (!frame) return tl::unexpected(frame.error());
   for (StampedPose& each : points->trajectory) {
     each.pose.translation = *frame * each.pose.translation;
@@ -313,15 +319,21 @@ Result<void> apply_lever_arms(const ScoringRequest& request, ScoringInput& input
   return {};
 }
 
+Result<void> check_lever_arm(const ScoringRequest& request) {
+  if (request.lever_arm.empty() || request.lever_arm == "estimate") return {};
+  if (numbers_of(request.lever_arm).size() == 3) return {};
+  return failure(
+      fmt::format("--lever-arm '{}': expected 'x y z' in metres, or estimate", request.lever_arm));
+}
+
 /// Moves the estimates to the point that the truth measures.
 Result<void> apply_lever_arm(const ScoringRequest& request, ScoringInput& input) {
   if (request.lever_arm.empty()) return {};
+  if (auto right = check_lever_arm(request); !right) return right;
   const bool fitted = request.lever_arm == "estimate";
   const std::vector<double> v = numbers_of(request.lever_arm);
-  if (!fitted && v.size() != 3) {
-    return failure(fmt::format("--lever-arm '{}': expected 'x y z' in metres, or estimate",
-                               request.lever_arm));
-  }
+  const auto frame = lever_frame_of(request);
+  if (!frame) return tl::unexpected(frame.error());
   const bool level = input.scoring.anchor == AlignmentKind::kStartHeading;
   for (SourcedTrajectory& each : input.estimates) {
     LeverArm lever;
@@ -336,7 +348,7 @@ Result<void> apply_lever_arm(const ScoringRequest& request, ScoringInput& input)
           each.name, decimal_text(p.x(), 3), decimal_text(p.y(), 3), decimal_text(p.z(), 3),
           lever.observed));
     } else {
-      lever.p_body_point = {v[0], v[1], v[2]};
+      lever.p_body_point = *frame * Eigen::Vector3d(v[0], v[1], v[2]);
     }
     each.trajectory = moved_to_point(std::move(each.trajectory), lever.p_body_point);
   }
@@ -378,6 +390,16 @@ void resolve_truth_content(ScoringInput& input) {
     input.notes.emplace_back(
         "truth: of positions alone: aligned by the path, and there are no scores of attitude");
   }
+}
+
+Result<void> check_points(const ScoringRequest& request) {
+  if (auto pose = extrinsic_of(request.extrinsic); !pose) return tl::unexpected(pose.error());
+  if (auto pose = lever_frame_of(request); !pose) return tl::unexpected(pose.error());
+  if (!request.end_pose.empty()) {
+    const auto pose = pose_of("--end-pose", request.end_pose, true);
+    if (!pose) return tl::unexpected(pose.error());
+  }
+  return check_lever_arm(request);
 }
 
 Result<ScoringInput> read_scoring_input(const ScoringRequest& request) {

@@ -28,7 +28,9 @@ struct ScoringRequest {
   /// File of positions by stamp: where the points that the truth measures were in a frame of the
   /// body, at the stamps of the truth, e.g. control points in the LiDAR's; empty: none.
   std::string lever_arms;
-  std::string lever_frame;  ///< "x y z qx qy qz qw": pose of that frame; empty: the estimates'
+  /// "x y z qx qy qz qw": pose of the frame in which `lever_arm` or `lever_arms` is; empty: the
+  /// estimates'.
+  std::string lever_frame;
   /// In place of a truth: the pose of the end in the frame of the start, "x y z qx qy qz qw", or
   /// "x y z", of which only the distance counts. Empty: there is a truth.
   std::string end_pose;
@@ -42,6 +44,9 @@ struct ScoringRequest {
 /// Decides what the truth measures, where the configuration leaves it open: positions alone where
 /// it has no attitude, or one that never changes while an estimate turns; notes it.
 void resolve_truth_content(ScoringInput& input);
+
+/// Error for an extrinsic, a lever arm, its frame or a pose of the end that is not written as one.
+Result<void> check_points(const ScoringRequest& request);
 
 /// Reads all that is needed to score. Errors are one line that names the file or the option.
 Result<ScoringInput> read_scoring_input(const ScoringRequest& request);

@@ -263,6 +263,20 @@ void withdraw_success(Scores& scores, FailureReason reason) {
   scores.diverged_at.reset();
 }
 
+Scores end_scores(const Scores& scores) {
+  Scores end;
+  end.judged = false;
+  end.failure_reason = FailureReason::kNone;
+  end.partial = scores.partial;
+  end.poses = scores.poses;
+  end.poses_invalid = scores.poses_invalid;
+  end.poses_compared = scores.poses_compared;
+  end.coverage = scores.coverage;
+  end.m_end = scores.m_end;
+  end.start_to_end_m = scores.start_to_end_m;
+  return end;
+}
+
 Scores score_over(const Trajectory& estimate, const Trajectory& truth,
                   std::span<const Segment> segments, const ScoreConfig& config) {
   const ValidPart valid_estimate(estimate), valid_true(truth);

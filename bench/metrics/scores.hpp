@@ -66,6 +66,7 @@ void describe(Fields& fields, ScoreConfig& config);
 
 /// All scores of one estimate. An undefined quantity has no value; none is ever NaN.
 struct Scores {
+  bool judged = true;              ///< false: the truth says nothing of the way, hence no success
   bool success = false;            ///< within 5 % of the distance
   bool success_1_percent = false;  ///< within 1 %
   FailureReason failure_reason = FailureReason::kNoOverlap;
@@ -121,6 +122,10 @@ std::vector<PosePair> headline_pairs(const Trajectory& estimate, const Trajector
 /// Takes the success of an estimate for a reason that is not its own; one that it has itself stays,
 /// unless it is one of what was cut off: that the estimate ends early, or hardly begins.
 void withdraw_success(Scores& scores, FailureReason reason);
+
+/// What a truth of the start and the end alone tells: the error of the end, and how much of the
+/// time has poses. Everything else is of the way between them.
+Scores end_scores(const Scores& scores);
 
 /// As `score`, with an M_list of each of the segments, in order of time, and of no others.
 Scores score_over(const Trajectory& estimate, const Trajectory& truth,

@@ -97,9 +97,10 @@ constexpr Better kOpen = Better::kNeither;
 
 // clang-format off
 constexpr std::array kScores = {
-    Score{"success", "within 5 %", "-", 0, kLarge, 0, [](const Scores& s) { return Json(s.success); }},
+    Score{"success", "within 5 %", "-", 0, kLarge, 0,
+          [](const Scores& s) { return s.judged ? Json(s.success) : Json(); }},
     Score{"success_1_percent", "within 1 %", "-", 0, kLarge, 0,
-          [](const Scores& s) { return Json(s.success_1_percent); }},
+          [](const Scores& s) { return s.judged ? Json(s.success_1_percent) : Json(); }},
     Score{"diverged_reason", "", "", 0, kOpen, 0,
           [](const Scores& s) { return Json(name_of(s.failure_reason)); }},
     Score{"diverged_at_s", "", "s", 1, kLarge, 0,

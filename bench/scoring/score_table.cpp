@@ -164,6 +164,7 @@ std::string outcome_of(const RunRecord& run, const Row& row) {
   const Json& scores = estimator_in(run, row.estimator);
   const Json own = row.prefix.empty() ? scores : value_in(scores, "optimized", Json());
   if (value_in(own, "success", false)) return "yes";
+  if (member(own, "success").is_null()) return "-";  // of a truth that says nothing of the way
   const std::string reason = value_in(own, "diverged_reason", "no");
   const auto at = number_at(own, "diverged_at_s");
   if (!at || reason == "starts_late") return reason.empty() ? "no" : reason;

@@ -46,10 +46,11 @@ Result<void> check_overlap(const SourcedTrajectory& estimate, const SourcedTraje
       fmt::format("{}: its stamps, {}, do not overlap the truth's, {}: likely a clock offset; ",
                   estimate.source, span_text(span), span_text(truth.trajectory));
   if (const auto offset = motion_offset(estimate.trajectory, truth.trajectory)) {
-    return failure(fmt::format(
-        "{}if both are of one walk, with --time-offset {:.2f} they stand and walk at the same times "
-        "(their speeds correlate by {:.2f})",
-        apart, offset->seconds, offset->correlation));
+    return failure(
+        fmt::format("{}if both are of one walk, with --time-offset {:.2f} they stand and walk at "
+                    "the same times "
+                    "(their speeds correlate by {:.2f})",
+                    apart, offset->seconds, offset->correlation));
   }
   return failure(
       fmt::format("{}if both began together, --time-offset {:.9f} makes it good, if both ended "
@@ -164,6 +165,7 @@ ScoredEstimate score_one(SourcedTrajectory estimate, const ScoringInput& input) 
   const Trajectory& truth = input.truth.trajectory;
   ScoredEstimate scored;
   scored.scores = score_over(estimate.trajectory, truth, input.segments, input.scoring);
+  if (input.is_end_alone) scored.scores = end_scores(scored.scores);
   scored.in_truth_frame = anchored(estimate.trajectory, truth, input.scoring);
   if (const auto difference = median_stamp_difference(scored.in_truth_frame, truth)) {
     scored.median_stamp_difference_s = to_seconds(*difference);

@@ -30,6 +30,7 @@ struct ScoringInput {
   std::vector<WaypointTime> waypoint_times;
   std::vector<Segment> segments;  ///< in order of time; none: there is no M_list
   ScoreConfig scoring;
+  bool is_end_alone = false;       ///< the truth is the pose of the end, from the start
   std::vector<std::string> notes;  ///< what was assumed while reading, a sentence each
 };
 

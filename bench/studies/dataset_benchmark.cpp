@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
-#include <map>
 #include <memory>
-#include <set>
 #include <utility>
 
 #include "bench/estimate/estimate_summary.hpp"
@@ -18,9 +16,11 @@
 #include "bench/run/code_version.hpp"
 #include "bench/scoring/columns.hpp"
 #include "bench/scoring/report.hpp"
+#include "bench/scoring/score_list.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "core/files/config_dump.hpp"
 #include "core/stopwatch.hpp"
+#include "core/text.hpp"
 
 namespace aims {
 namespace {
@@ -129,6 +129,41 @@ std::string id_of(DatasetProfile profile, const DatasetSequence& sequence,
                                text_of(estimator), dump_config(fields_of(profile))));
 }
 
+/// Of what is stored of a sequence: the notes of one estimator, which others may not have.
+std::string notes_key(const std::string& label) { return "notes of " + label; }
+
+/// Where a mount is from.
+std::string mount_note(const ExtrinsicConfig& stated, const Pose& pose, std::string_view sensor,
+                       bool assumed) {
+  const Eigen::Vector3d& p = pose.translation;
+  const Eigen::Quaterniond& q = pose.rotation;
+  return fmt::format("{} in the IMU frame: [{}, {}, {}] m, quaternion xyzw [{}, {}, {}, {}], {}",
+                     sensor, decimal_text(p.x(), 4), decimal_text(p.y(), 4), decimal_text(p.z(), 4),
+                     decimal_text(q.x(), 4), decimal_text(q.y(), 4), decimal_text(q.z(), 4),
+                     decimal_text(q.w(), 4),
+                     stated.is_given() ? "as the profile states"
+                     : assumed         ? "assumed"
+                                       : "from the tf of the recording");
+}
+
+std::vector<std::string> mount_notes(const RecordingConfig& config, const RecordingSetup& setup) {
+  const auto assumed = [&setup](std::string_view key) {
+    return std::ranges::any_of(setup.warnings, [key](const ReadingWarning& each) {
+      return each.text.starts_with("NO TRANSFORM") && each.text.find(key) != std::string::npos;
+    });
+  };
+  std::vector<std::string> notes;
+  if (!setup.topics.lidar.empty() && setup.topics.lidar != "none") {
+    notes.push_back(
+        mount_note(config.T_imu_lidar, setup.rig.T_body_lidar, "LiDAR", assumed("T_imu_lidar")));
+  }
+  if (setup.has_legs) {
+    notes.push_back(
+        mount_note(config.T_imu_base, setup.rig.T_body_base, "base", assumed("T_imu_base")));
+  }
+  return notes;
+}
+
 JobResult result_of(const DatasetProfile& profile, const DatasetSequence& sequence,
                     const EstimatorSpec& estimator, const fs::path& folder,
                     std::atomic<double>& part) {
@@ -145,19 +180,18 @@ JobResult result_of(const DatasetProfile& profile, const DatasetSequence& sequen
     job.message = result.error().message;
     return job;
   }
-  std::vector<std::string> notes = result->setup.notes;
+  std::vector<std::string> notes = mount_notes(profile.read.recording, result->setup);
+  notes.insert(notes.end(), result->setup.notes.begin(), result->setup.notes.end());
   for (const ReadingWarning& each : result->setup.warnings) notes.push_back(each.text);
   job.sequence = {{"recorded_s", result->recorded_s}, {"segments", Json::array()}};
-  job.scores = {{"success", false}};
+  job.scores = {{"success", nullptr}};
   if (result->scores) {
     const RunRecord record = estimate_record(*result);
     job.scores = record.scores["estimators"].front();
     job.sequence["truth"] = record.scores["truth"];
     notes.insert(notes.end(), result->scores->notes.begin(), result->scores->notes.end());
-  } else {
-    notes.push_back(fmt::format("no truth: not scored; looked for {}", sequence.looked_for));
   }
-  job.sequence["notes"] = notes;
+  job.sequence[notes_key(estimator.label)] = notes;
   return job;
 }
 
@@ -195,6 +229,8 @@ Json sequence_json(const DatasetBenchmark& benchmark, const DatasetSequence& seq
   Json json = {{"name", sequence.name},
                {"recording", sequence.recording.string()},
                {"truth", sequence.truth},
+               {"lack", sequence.lack},
+               {"notes", scoring_notes(profile, sequence)},
                {"ours", Json::object()},
                {"published", Json::object()}};
   for (const std::string& label : labels_of(profile.read.run)) {
@@ -205,6 +241,47 @@ Json sequence_json(const DatasetBenchmark& benchmark, const DatasetSequence& seq
     if (value) json["published"][system] = *value;
   }
   return json;
+}
+
+/// The names, or how many there are.
+std::string names_text(const std::vector<std::string>& names, std::size_t all) {
+  constexpr std::size_t kMost = 4;
+  if (names.size() <= kMost) return fmt::format("{}", fmt::join(names, ", "));
+  if (names.size() == all) return fmt::format("all {} sequences", all);
+  const std::vector<std::string> first(names.begin(), names.begin() + kMost);
+  return fmt::format("{} and {} more", fmt::join(first, ", "), names.size() - kMost);
+}
+
+/// What was assumed of each sequence; equal notes once, with all of whom they are.
+std::vector<std::string> sequence_notes(const DatasetBenchmark& benchmark) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> notes;
+  const auto add = [&notes](const std::string& note, const std::string& sequence) {
+    const auto known =
+        std::ranges::find_if(notes, [&](const auto& each) { return each.first == note; });
+    if (known == notes.end()) {
+      notes.push_back({note, {sequence}});
+    } else if (known->second.back() != sequence) {
+      known->second.push_back(sequence);
+    }
+  };
+  for (std::size_t i = 0; i < benchmark.sequences.size(); ++i) {
+    const DatasetSequence& sequence = benchmark.sequences[i];
+    for (const std::string& note : scoring_notes(benchmark.profile, sequence)) {
+      add(note, sequence.name);
+    }
+    const SuiteCase& each = benchmark.suite.cases[i];
+    if (each.runs.empty()) continue;
+    for (const std::string& label : labels_of(benchmark.profile.read.run)) {
+      for (const Json& note : member(each.runs.front().scores, notes_key(label))) {
+        if (note.is_string()) add(note.get<std::string>(), sequence.name);
+      }
+    }
+  }
+  std::vector<std::string> lines;
+  for (const auto& [note, names] : notes) {
+    lines.push_back(fmt::format("{}: {}", names_text(names, benchmark.sequences.size()), note));
+  }
+  return lines;
 }
 
 std::string markdown(const DatasetBenchmark& benchmark) {
@@ -269,29 +346,28 @@ TextTable benchmark_table(const DatasetBenchmark& benchmark) {
   return table;
 }
 
+std::string benchmark_score_text(const DatasetProfile& profile) {
+  return fmt::format("{} [{}]: {}", profile.score, profile.unit, profile.score_text);
+}
+
 std::vector<std::string> benchmark_notes(const DatasetBenchmark& benchmark) {
   const DatasetProfile& profile = benchmark.profile;
   std::vector<std::string> notes = {
-      fmt::format("{} [{}]: {}", profile.score, profile.unit, profile.score_text),
+      benchmark_score_text(profile),
       profile.published_source.empty()
           ? std::string("published: no figures were read in a source that could be checked")
           : fmt::format("published: {}", profile.published_source),
       fmt::format("cite: {}", profile.citation),
+      fmt::format("data: {}; licence: {}", profile.url, profile.licence),
       fmt::format("this profile is tested on {}", profile.tested)};
-  std::set<std::string> said;
-  for (const SuiteCase& each : benchmark.suite.cases) {
-    if (each.runs.empty() || !each.runs.front().scores.contains("notes")) continue;
-    for (const Json& note : each.runs.front().scores["notes"]) {
-      if (!note.is_string() || !said.insert(note.get<std::string>()).second) continue;
-      notes.push_back(fmt::format("{}: {}", each.scenario.name, note.get<std::string>()));
-    }
-  }
+  notes.insert(notes.end(), profile.notes.begin(), profile.notes.end());
+  for (std::string& each : sequence_notes(benchmark)) notes.push_back(std::move(each));
   return notes;
 }
 
 Json benchmark_json(const DatasetBenchmark& benchmark) {
   const DatasetProfile& profile = benchmark.profile;
-  Json json = {{"schema", "aims.benchmark/1"},
+  Json json = {{"schema", kBenchmarkSchema},
                {"version", AIMS_VERSION},
                {"profile", profile.name},
                {"title", profile.title},
@@ -301,6 +377,8 @@ Json benchmark_json(const DatasetBenchmark& benchmark) {
                {"tested", profile.tested},
                {"score", profile.score},
                {"unit", profile.unit},
+               {"score_text", profile.score_text},
+               {"better", better_of(profile.score) == Better::kLarger ? "larger" : "smaller"},
                {"published_source", profile.published_source},
                {"complete", benchmark.suite.complete},
                {"notes", benchmark_notes(benchmark)},

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/estimate/dataset_sequences.hpp"
@@ -31,7 +32,13 @@ TextTable benchmark_table(const DatasetBenchmark& benchmark);
 /// What the columns are, where the published ones are from, and what was assumed of each sequence.
 std::vector<std::string> benchmark_notes(const DatasetBenchmark& benchmark);
 
-/// What benchmark.json holds: schema aims.benchmark/1.
+/// The score of the profile, its unit, and how its authors compute it.
+std::string benchmark_score_text(const DatasetProfile& profile);
+
+/// Version of the layout of benchmark.json; see docs/result-files.md.
+inline constexpr std::string_view kBenchmarkSchema = "aims.benchmark/1";
+
+/// What benchmark.json holds.
 Json benchmark_json(const DatasetBenchmark& benchmark);
 
 /// Writes benchmark.md and benchmark.json, and the files of a suite.

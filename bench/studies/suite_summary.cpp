@@ -6,6 +6,7 @@
 #include "bench/run/code_version.hpp"
 #include "bench/scoring/json_text.hpp"
 #include "bench/scoring/report.hpp"
+#include "bench/scoring/validity.hpp"
 #include "bench/studies/families.hpp"
 #include "bench/studies/success_pairs.hpp"
 #include "bench/studies/suite_tables.hpp"
@@ -36,6 +37,14 @@ Json scores_json(std::span<const RunRecord> runs, const std::string& estimator) 
   return scores;
 }
 
+/// Whether a valid run has scores of the estimator without a success, of which its truth says
+/// nothing.
+bool has_unjudged(std::span<const RunRecord> runs, const std::string& estimator) {
+  return std::ranges::any_of(runs, [&estimator](const RunRecord& run) {
+    return is_valid_run(run) && !estimator_in(run, estimator).is_null();
+  });
+}
+
 Json case_json(const SuiteCase& each) {
   Json json = {{"name", each.scenario.name},
                {"tags", each.scenario.tags},
@@ -55,12 +64,14 @@ Json case_json(const SuiteCase& each) {
   if (each.runs.empty()) return json;
   for (const std::string& estimator : labels_of(each.scenario.run)) {
     const SuccessRate rate = success_rate(each.runs, estimator);
-    if (rate.runs == 0) continue;
+    if (rate.runs == 0 && !has_unjudged(each.runs, estimator)) continue;
     const Interval interval = rate.interval();
     json["estimators"][estimator] = {
         {"runs", rate.runs},
         {"successes", rate.count},
-        {"success_rate", static_cast<double>(rate.count) / static_cast<double>(rate.runs)},
+        {"success_rate",
+         rate.runs == 0 ? Json()
+                        : Json(static_cast<double>(rate.count) / static_cast<double>(rate.runs))},
         {"success_low", json_of(interval.low)},
         {"success_high", json_of(interval.high)},
         {"successes_1_percent", success_rate(each.runs, estimator, kStrictSuccessKey).count},

@@ -111,6 +111,22 @@ Result<RecordingConfig> with_plain_extrinsics(RecordingConfig config) {
   return config;
 }
 
+Result<void> check_extrinsics(const RecordingConfig& config,
+                              std::span<const AssignedKey> assigned) {
+  const auto check = [&](const ExtrinsicConfig& each, std::string_view key) -> Result<void> {
+    if (!each.has_numbers()) return {};
+    const auto pose = configured_extrinsic(each, key);
+    if (pose) return {};
+    std::string place;  // the last one counts
+    for (const AssignedKey& set : assigned) {
+      if (pose.error().message.starts_with(set.key + ":")) place = set.place;
+    }
+    return failure(place + pose.error().message);
+  };
+  auto right = check(config.T_imu_lidar, "T_imu_lidar");
+  return right ? check(config.T_imu_base, "T_imu_base") : right;
+}
+
 void find_calibrations(RecordingConfig& config, const std::filesystem::path& folder) {
   for (ExtrinsicConfig* each : {&config.T_imu_lidar, &config.T_imu_base}) {
     if (each->file.empty() || std::filesystem::path(each->file).is_absolute()) continue;

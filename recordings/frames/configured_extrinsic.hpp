@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string_view>
 
+#include "core/config.hpp"
 #include "core/error.hpp"
 #include "core/lie.hpp"
 #include "recordings/recording_config.hpp"
@@ -16,6 +18,10 @@ Result<Pose> configured_extrinsic(const ExtrinsicConfig& config, std::string_vie
 
 /// The configuration with the plain form of each extrinsic that it states.
 Result<RecordingConfig> with_plain_extrinsics(RecordingConfig config);
+
+/// Error for an extrinsic in numbers that are no pose, at the place of its key among those that
+/// were set.
+Result<void> check_extrinsics(const RecordingConfig& config, std::span<const AssignedKey> assigned);
 
 /// Takes relative names of calibrations as relative to the folder of the configuration that names
 /// them; one that is there only from the working directory stays.

@@ -80,11 +80,15 @@ Pose RecordedFrames::extrinsic(const ExtrinsicConfig& configured, const std::str
     warn_of_distance(*pose, from, to, key, notes);
     return *pose;
   }
+  const auto named = [](const std::string& frame) {
+    return frame.empty() ? std::string("a frame that no message names")
+                         : fmt::format("'{}'", frame);
+  };
   notes.warn(fmt::format("{} unknown", key),
-             fmt::format("NO TRANSFORM from '{}' to '{}' in tf: identity is assumed. Set "
+             fmt::format("NO TRANSFORM from {} to {} in tf: identity is assumed. Set "
                          "recording.{}.translation and rotation_rpy_deg, or .file to a "
                          "calibration, or name the frames",
-                         from, to, key),
+                         named(from), named(to), key),
              key == "T_imu_lidar" ? WarnedSensor::kLidar : WarnedSensor::kLegs);
   return {};
 }

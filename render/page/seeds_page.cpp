@@ -104,8 +104,8 @@ Result<PageData> seeds_page(const fs::path& folder, const PageOptions& options) 
     auto record = read_record(run_folder / "scores.json");
     if (!record) return tl::unexpected(record.error());
     if (only.runs.empty()) only.scenario = scenario_of(run_folder, *record, notes);
-    rows.push_back(
-        suite_run_json(only.scenario.name, record->seed, &*record, run_folder, page_folder));
+    rows.push_back(suite_run_json(only.scenario.name, record->seed, &*record, run_folder,
+                                  page_folder, headline_scores_json()));
     only.runs.push_back(std::move(*record));
   }
   if (only.runs.empty()) return failure(folder.string() + ": expected seed-N/scores.json");

@@ -16,6 +16,7 @@
 #include "bench/jobs/stored_results.hpp"
 #include "bench/scoring/json_text.hpp"
 #include "bench/studies/comparison.hpp"
+#include "bench/studies/dataset_benchmark.hpp"
 #include "bench/studies/paper_study.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "bench/studies/written_runs.hpp"
@@ -63,7 +64,8 @@ const RunRecord* record_in(const StoredResults& results, const std::string& scen
 }
 
 /// A row per scenario and seed.
-Json runs_of(const Json& suite, const fs::path& folder, const fs::path& page_folder, Json& notes) {
+Json runs_of(const Json& suite, const fs::path& folder, const fs::path& page_folder,
+             const Json& headline, Json& notes) {
   const StoredResults results = read_results(folder).value_or(StoredResults());
   Json runs = Json::array();
   for (const Json& scenario : suite["scenarios"]) {
@@ -74,8 +76,8 @@ Json runs_of(const Json& suite, const fs::path& folder, const fs::path& page_fol
       if (record == nullptr) {
         notes.push_back(fmt::format("{}, seed {}: no results of its jobs", name, seed));
       }
-      runs.push_back(
-          suite_run_json(name, seed, record, suite_run_folder(folder, name, seed), page_folder));
+      runs.push_back(suite_run_json(name, seed, record, suite_run_folder(folder, name, seed),
+                                    page_folder, headline));
     }
   }
   return runs;
@@ -150,6 +152,17 @@ Result<Json> paper_of(const fs::path& folder, Json& notes) {
   return paper;
 }
 
+/// The file of `aims benchmark`; null in other folders.
+Json benchmark_of(const fs::path& folder, Json& notes) {
+  const fs::path file = folder / "benchmark.json";
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return {};
+  auto benchmark = read_json_of(file, kBenchmarkSchema);
+  if (benchmark) return std::move(*benchmark);
+  notes.push_back("benchmark.json cannot be used: " + benchmark.error().message);
+  return {};
+}
+
 /// What changed from `against` to the suite; null when there is nothing to compare with.
 Result<Json> comparison_of(const fs::path& folder, const fs::path& against) {
   if (against.empty()) return Json();
@@ -185,18 +198,25 @@ Result<PageData> suite_page(const fs::path& folder, const PageOptions& options) 
   if (!comparison) return tl::unexpected(comparison.error());
   auto paper = paper_of(folder, notes);
   if (!paper) return tl::unexpected(paper.error());
+  Json benchmark = benchmark_of(folder, notes);
+  if (!benchmark.is_null() && !text_in(benchmark, "title").empty()) {
+    page.title = text_in(benchmark, "title");
+  }
+  const Json headline =
+      headline_scores_json(text_in(benchmark, "score"), text_in(benchmark, "unit"));
   const fs::path page_folder = options.out_folder.empty() ? folder : options.out_folder;
-  Json runs = runs_of(*suite, folder, page_folder, notes);
+  Json runs = runs_of(*suite, folder, page_folder, headline, notes);
   page.json = {{"schema", kPageSchema},
                {"kind", "suite"},
                {"title", page.title},
                {"version", text_in(*suite, "version")},
-               {"headline", headline_scores_json()},
+               {"headline", headline},
                {"runs", std::move(runs)},
                {"roc", std::move(*detectors)},
                {"consistency", std::move(consistency)},
                {"compare", std::move(*comparison)},
                {"paper", std::move(*paper)},
+               {"benchmark", std::move(benchmark)},
                {"notes", std::move(notes)}};
   page.json["palette"] = palette_json();
   page.json["styles"] = styles_json(suite_estimators(*suite));

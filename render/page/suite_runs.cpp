@@ -20,13 +20,14 @@ namespace fs = std::filesystem;
 constexpr const char* kRunPage = "page.html";
 
 /// What the page shows of one estimator on one seed.
-Json outcome_of(const RunRecord& run, const std::string& estimator) {
+Json outcome_of(const RunRecord& run, const std::string& estimator, const Json& headline) {
   const Json& scores = estimator_in(run, estimator);
   Json outcome = {{"success", member(scores, "success")},
                   {"diverged_at_s", json_of(find_score(run, estimator, "diverged_at_s"))},
                   {"diverged_reason", text_in(scores, "diverged_reason")}};
-  for (const Score& score : headline_scores()) {
-    outcome[score.key] = json_of(find_score(run, estimator, score.key));
+  for (const Json& score : headline) {
+    const std::string key = text_in(score, "key");
+    outcome[key] = json_of(find_score(run, estimator, key));
   }
   return outcome;
 }
@@ -53,7 +54,7 @@ std::string link_to(const fs::path& relative) {
 }
 
 Json suite_run_json(const std::string& scenario, std::uint64_t seed, const RunRecord* record,
-                    const fs::path& run_folder, const fs::path& page_folder) {
+                    const fs::path& run_folder, const fs::path& page_folder, const Json& headline) {
   Json run = {{"scenario", scenario},
               {"seed", seed},
               {"href", run_link(run_folder, page_folder)},
@@ -64,15 +65,27 @@ Json suite_run_json(const std::string& scenario, std::uint64_t seed, const RunRe
   run["partial"] = partial_in(*record);
   if (const auto reason = invalid_reason(record->scores)) run["invalid"] = *reason;
   for (const auto& [estimator, unused] : record->scores["estimators"].items()) {
-    run["estimators"][estimator] = outcome_of(*record, estimator);
+    run["estimators"][estimator] = outcome_of(*record, estimator, headline);
   }
   return run;
 }
 
-Json headline_scores_json() {
+Json headline_scores_json(const std::string& first, const std::string& unit) {
   Json scores = Json::array();
-  for (const Score& score : headline_scores()) {
-    scores.push_back({{"key", score.key}, {"title", score.title}, {"unit", score.unit}});
+  const auto add = [&scores](const std::string& key, std::string_view title, std::string_view of) {
+    scores.push_back({{"key", key},
+                      {"title", title},
+                      {"unit", of},
+                      {"better", better_of(key) == Better::kLarger ? "larger" : "smaller"}});
+  };
+  if (!first.empty()) {
+    const auto listed = std::ranges::find_if(
+        score_list(), [&first](const Score& each) { return each.key == first; });
+    const bool titled = listed != score_list().end() && !listed->title.empty();
+    add(first, titled ? listed->title : std::string_view(first), unit);
+  }
+  for (const Score& each : headline_scores()) {
+    if (each.key != first) add(each.key, each.title, each.unit);
   }
   return scores;
 }

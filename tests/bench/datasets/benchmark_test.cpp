@@ -93,40 +93,70 @@ std::unique_ptr<test::Walked> Benchmark::walked_;
 /// Of an ATE; lio on the walk errs by 2 cm. A mirrored, turned or ignored mount errs by more.
 constexpr double kRight = 0.06;  ///< [m]
 
-/// The mount of the Ouster in ENWIDE, Newer College and DiTer++.
+/// The mount of the Ouster in ENWIDE and DiTer++.
 const Pose kOuster{Eigen::Quaterniond::Identity(), {-0.00625, 0.011775, 0.028535}};
 
-TEST_F(Benchmark, GeodeHasAMatrixAndPositionsAsPoses) {
+/// The devices of GEODE, by cali/*.yaml.
+test::DataSet geode_device(const std::string& device) {
   Eigen::Matrix3d R;
-  R << 0.9999, 0.0049, 0.0153, -0.0050, 1.0000, 0.0021, -0.0153, -0.0022, 0.9999;
-  test::DataSet set{"/velodyne_points", "velodyne", "/imu/imu", "imu"};
-  set.T_imu_lidar = mount(R, {0.0961, -0.1338, 0.3032});
+  test::DataSet set{"/velodyne_points", "velodyne", "/imu/data", "imu"};
+  if (device == "alpha") {
+    R << 0.9999, 0.0049, 0.0153, -0.0050, 1.0000, 0.0021, -0.0153, -0.0022, 0.9999;
+    set.T_imu_lidar = mount(R, {0.0961, -0.1338, 0.3032});
+  } else if (device == "beta") {
+    R << 0.998638, 0.052001, -0.004278, -0.051937, 0.998554, 0.013900, 0.004994, -0.013659,
+        0.999894;
+    set = {"/ouster/points", "os_sensor", "/imu/data", "imu", CloudLayout::kOuster};
+    set.T_imu_lidar = mount(R, {-0.027172, -0.034873, 0.062643});
+  } else {
+    R << 0.999620, 0.027463, 0.002445, -0.027517, 0.999299, 0.025398, -0.001746, -0.025456,
+        0.999674;
+    set = {"/livox/lidar", "livox_frame", "/imu/data", "imu"};
+    set.custom_message = true;
+    set.T_imu_lidar = mount(R, {0.049258, -0.012500, 0.026946});
+  }
   set.T_imu_lidar.rotation.normalize();
-  sequence(set);
-  ASSERT_TRUE(write_tum(data() / "seq_01_gt.txt", truth({0, 0, 0}, false)));
+  return set;
+}
+
+/// What its scripts move the poses of the LiDAR by: T_eval = T_device T^-1.
+Pose geode_script(double qw, double qx, double qy, double qz, const Eigen::Vector3d& t) {
+  return {Eigen::Quaterniond(qw, qx, qy, qz).normalized(), t};
+}
+
+TEST_F(Benchmark, GeodeHasTheTruthOfTheLidarOfItsDevice) {
+  const test::DataSet alpha = geode_device("alpha");
+  sequence(alpha);
+  ASSERT_TRUE(write_tum(data() / "seq_01_gt.txt", truth(alpha.T_imu_lidar.translation, false)));
   EXPECT_LT(score_of("geode"), kRight);
 }
 
-TEST_F(Benchmark, GeodeHasTwoMoreDevices) {
-  Eigen::Matrix3d R;
-  R << 0.998638, 0.052001, -0.004278, -0.051937, 0.998554, 0.013900, 0.004994, -0.013659, 0.999894;
-  test::DataSet beta{"/ouster/points", "os_sensor", "/imu/imu", "imu", CloudLayout::kOuster};
-  beta.T_imu_lidar = mount(R, {-0.027172, -0.034873, 0.062643});
-  beta.T_imu_lidar.rotation.normalize();
-  sequence(beta);
-  ASSERT_TRUE(write_tum(data() / "seq_01_gt.txt", truth({0, 0, 0}, true)));
-  EXPECT_LT(score_of("geode_beta"), kRight);
-  fs::remove(data() / "seq_01.bag");
-  fs::remove(data() / "seq_01_gt.txt");
-  R << 0.999620, 0.027463, 0.002445, -0.027517, 0.999299, 0.025398, -0.001746, -0.025456, 0.999674;
-  test::DataSet gamma{"/livox/lidar", "livox_frame", "/imu/imu", "imu"};
-  gamma.custom_message = true;
-  gamma.T_imu_lidar = mount(R, {0.049258, -0.012500, 0.026946});
-  gamma.T_imu_lidar.rotation.normalize();
-  sequence(gamma, "seq_02");
-  ASSERT_TRUE(write_tum(data() / "seq_02_gt.txt", truth({0, 0, 0}, true)));
-  fs::remove_all(folder_.path() / "out");
-  EXPECT_LT(score_of("geode_gamma", "seq_02"), kRight);
+TEST_F(Benchmark, GeodeHasTheTruthOfAnotherDeviceOnItsRack) {
+  struct Rack {
+    const char *profile, *device, *sequence, *truth;
+    Pose T;
+  };
+  const Rack racks[] = {
+      {"geode", "alpha", "Offroad1_alpha", "Offroad1.txt",
+       geode_script(0.9999909, -0.0009, -0.00355, 0.0022, {0.0090, -0.2925, 0.4533})},
+      {"geode_gamma", "gamma", "Inland_Waterways_Short_Gamma", "Inland_Waterways_Short_gt.txt",
+       geode_script(0.9998828, -0.0057758, 0.0022253, 0.0140019, {0.0305, -0.5959, 0.0902})},
+      {"geode_beta", "beta", "Tunneling_tunnel1_beta", "Tunneling_tunnel1.txt",
+       geode_script(0.999991, 0.000903519, 0.0035434, -0.00220342,
+                    {-0.0108864, 0.293397, -0.452674})},
+      {"geode_gamma", "gamma", "Shield_tunnel1_gamma", "Shield_tunnel1.txt",
+       geode_script(0.999901, -0.00492765, 0.00575961, 0.0117651,
+                    {0.00947221, -0.308202, -0.365733})}};
+  for (const Rack& each : racks) {
+    const test::DataSet set = geode_device(each.device);
+    sequence(set, each.sequence);
+    const Pose T_imu_truth = set.T_imu_lidar * each.T.inverse();
+    ASSERT_TRUE(write_tum(data() / each.truth, truth(T_imu_truth.translation, false)));
+    EXPECT_LT(score_of(each.profile, each.sequence), kRight) << each.sequence;
+    fs::remove_all(data());
+    fs::remove_all(folder_.path() / "out");
+    fs::create_directories(data());
+  }
 }
 
 TEST_F(Benchmark, EnwideIsAnOusterWithAPrismAndACommandContinues) {
@@ -145,25 +175,31 @@ TEST_F(Benchmark, EnwideIsAnOusterWithAPrismAndACommandContinues) {
   EXPECT_NE(again.output.find("0 jobs done, 1 found finished"), std::string::npos) << again.output;
 }
 
+/// By os_imu_lidar_transforms.yaml of Newer College, 2021: LiDAR and base in the IMU.
+const Eigen::Quaterniond kNewerCollegeTurn =
+    Eigen::Quaterniond(0.99998, 0.0032925, -0.004627, -0.0024302).normalized();
+const Pose kNewerCollege{kNewerCollegeTurn, {0.013801, -0.012207, -0.01514}};
+const Pose kNewerCollegeBase{kNewerCollegeTurn, {0.013642, -0.011607, -0.10583}};
+
 TEST_F(Benchmark, NewerCollegeIsAnOusterWithPoses) {
   test::DataSet set{"/os_cloud_node/points", "os_sensor", "/os_cloud_node/imu", "os_imu",
                     CloudLayout::kOuster};
-  set.T_imu_lidar = kOuster;
+  set.T_imu_lidar = kNewerCollege;
   sequence(set);
-  ASSERT_TRUE(write_tum(data() / "seq_01.tum", truth({0, 0, 0}, true)));
+  ASSERT_TRUE(write_tum(data() / "seq_01.tum", truth_of(kNewerCollegeBase)));
   EXPECT_LT(score_of("newer_college"), kRight);
 }
 
 TEST_F(Benchmark, NewerCollegeInOneFolderHasTheTruthOfEachSequenceByItsName) {
   test::DataSet set{"/os_cloud_node/points", "os_sensor", "/os_cloud_node/imu", "os_imu",
                     CloudLayout::kOuster};
-  set.T_imu_lidar = kOuster;
+  set.T_imu_lidar = kNewerCollege;
   for (const char* name : {"quad-easy", "math-hard"}) {
     sequence(set, std::string("2021-07-01-10-37-38-") + name);
   }
   std::ofstream csv(data() / "gt-nc-quad-easy.csv");
   csv << "#sec,nsec,x,y,z,qx,qy,qz,qw\n";
-  for (const StampedPose& each : truth({0, 0, 0}, true)) {
+  for (const StampedPose& each : truth_of(kNewerCollegeBase)) {
     const Eigen::Vector3d& p = each.pose.translation;
     const Eigen::Quaterniond& q = each.pose.rotation;
     csv << fmt::format("{},{},{},{},{},{},{},{},{}\n", each.stamp / kSecond, each.stamp % kSecond,
@@ -295,6 +331,19 @@ TEST_F(Benchmark, Hilti2022HasControlPointsOfItsTip) {
   EXPECT_LE(score, 100.0);
 }
 
+TEST_F(Benchmark, Hilti2022HasPosesOfItsImuWithoutTheLeverArm) {
+  Eigen::Matrix3d R;
+  R << 0, -1, 0, -1, 0, 0, 0, 0, -1;
+  test::DataSet set{"/hesai/pandar", "PandarXT-32", "/alphasense/imu", "imu_sensor_frame",
+                    CloudLayout::kHesai};
+  set.T_imu_lidar = mount(R, {-0.001, -0.00855, 0.055});
+  sequence(set, "exp04_construction_upper_level");
+  ASSERT_TRUE(
+      write_tum(data() / "exp_04_construction_upper_level_imu.txt", truth({0, 0, 0}, true)));
+  EXPECT_LT(score_of("hilti22_imu", "exp04_construction_upper_level"), kRight);
+  EXPECT_EQ(results()["unit"], "m");
+}
+
 TEST_F(Benchmark, LegKiloStampsTheEndOfAScanAndEndsWhereItBegan) {
   test::DataSet set{"/points_raw", "velodyne", "/imu_raw", "imu"};
   set.stamped_at_end = true;
@@ -304,6 +353,33 @@ TEST_F(Benchmark, LegKiloStampsTheEndOfAScanAndEndsWhereItBegan) {
   const Eigen::Vector3d way =
       walked_->truth.back().pose.translation - walked_->truth.front().pose.translation;
   EXPECT_NEAR(score_of("leg_kilo", "corridor"), way.norm(), kRight);
+  std::ifstream file(folder_.path() / "out" / "suite.json");
+  const Json scores =
+      Json::parse(file)["scenarios"][0]["estimators"]["lio"]["scores"];  // of the end alone
+  EXPECT_TRUE(scores["m_end_m"]["median"].is_number());
+  EXPECT_FALSE(scores.contains("control_points.score"));
+  for (const char* of_the_way : {"ate_yaw_m", "ate_m", "ate_se3_m", "max_error_z_m", "success"}) {
+    if (scores.contains(of_the_way)) {
+      EXPECT_TRUE(scores[of_the_way]["median"].is_null()) << of_the_way;
+    }
+  }
+}
+
+TEST_F(Benchmark, NotesNameAllSequencesOfWhichTheyAreAndTheScoreGoesFirst) {
+  test::DataSet set{"/points_raw", "velodyne", "/imu_raw", "imu"};
+  set.stamped_at_end = true;
+  set.T_imu_lidar = mount(Eigen::Matrix3d::Identity(), {0, 0, 0.20});
+  sequence(set, "corridor");
+  sequence(set, "park");
+  ASSERT_TRUE(write_tum(data() / "park.txt", truth({0, 0, 0}, true)));
+  const auto run = aims("benchmark leg_kilo data --estimators lio --no-page --out out");
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_EQ(run.output.find("Leg-KILO data set, score m_end_m [m]: "), 0U) << run.output;
+  for (const char* note : {"corridor, park: LiDAR in the IMU frame: [0.0000, 0.0000, 0.2000] m",
+                           "park: truth: park.txt", "corridor: truth: the pose of the end",
+                           "park: the truth is taken to be of the IMU"}) {
+    EXPECT_NE(run.output.find(note), std::string::npos) << note << "\n" << run.output;
+  }
 }
 
 TEST_F(Benchmark, LegKiloHasTheLegsOfAHighState) {
@@ -328,7 +404,7 @@ TEST_F(Benchmark, LegKiloHasNoEndForOtherRoutes) {
   set.T_imu_lidar = mount(Eigen::Matrix3d::Identity(), {0, 0, 0.20});
   sequence(set, "park");
   const auto run = aims("benchmark leg_kilo data --estimators lio --no-page --out out --jobs 1");
-  EXPECT_NE(run.output.find("park: no truth: not scored; looked for park.txt"), std::string::npos)
+  EXPECT_NE(run.output.find("park: not scored: no truth: looked for park.txt"), std::string::npos)
       << run.output;
 }
 
@@ -339,6 +415,20 @@ TEST_F(Benchmark, DiterPlusPlusIsAnOusterOnARobot) {
   sequence(set, "lawn_go2_lower_day");
   ASSERT_TRUE(write_tum(data() / "lawn_go2_lower_day.txt", truth({0, 0, 0}, true)));
   EXPECT_LT(score_of("diter_plusplus", "lawn_go2_lower_day"), kRight);
+}
+
+TEST_F(Benchmark, DiterPlusPlusHasLegsBelowTheImuOfItsOuster) {
+  test::DataSet set{"/agent1/ouster/points", "os_sensor", "/agent1/ouster/imu", "os_imu",
+                    CloudLayout::kOuster};
+  set.T_imu_lidar = kOuster;
+  set.high_state = true;
+  sequence(set, "lawn_go2_lower_day");
+  const auto run = aims("benchmark diter_plusplus data --estimators lio --no-page --out out");
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_NE(run.output.find("base in the IMU frame: [-0.0112, 0.0112, -0.2705] m"),
+            std::string::npos)
+      << run.output;
+  EXPECT_EQ(run.output.find("NO TRANSFORM"), std::string::npos) << run.output;
 }
 
 TEST_F(Benchmark, M3dgrIsALivoxOfCustomMessages) {
@@ -435,10 +525,13 @@ TEST_F(Benchmark, WhatIsMissingIsSaid) {
   EXPECT_NE(none.output.find("data: expected recordings"), std::string::npos) << none.output;
   const auto wrong = aims("benchmark geod data");
   EXPECT_NE(wrong.output.find("did you mean 'geode'?"), std::string::npos) << wrong.output;
-  test::DataSet set{"/velodyne_points", "velodyne", "/imu/imu", "imu"};
+  const test::DataSet set = geode_device("alpha");
   sequence(set);
   const auto run = aims("benchmark geode data --estimators lio --no-page --out out");
-  EXPECT_NE(run.output.find("no truth: not scored"), std::string::npos) << run.output;
+  EXPECT_NE(run.output.find("seq_01 will not be scored: no truth: looked for seq_01_gt.txt"),
+            std::string::npos)
+      << run.output;
+  EXPECT_NE(run.output.find("seq_01: not scored: no truth"), std::string::npos) << run.output;
 }
 
 TEST(DatasetProfiles, LoadAndNameTheirSources) {

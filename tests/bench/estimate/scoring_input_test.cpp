@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "bench/scenario/scoring_config.hpp"
+#include "bench/scoring/trajectory_summary.hpp"
 #include "core/files/tum.hpp"
 #include "recordings/bag/bag_writer.hpp"
 #include "recordings/messages/message_encoding.hpp"
@@ -401,12 +402,38 @@ TEST_F(ScoringInputs, APoseOfTheEndIsATruthOfItsOwn) {
   const auto scores = score_trajectories(*read_scoring_input(request));
   ASSERT_TRUE(scores) << scores.error().message;
   EXPECT_NEAR(scores->estimates[0].scores.m_end.value().norm_m, 0.5, 1e-9);
+  const Scores& of_end = scores->estimates[0].scores;
+  EXPECT_FALSE(of_end.judged) << "the truth says nothing of the way";
+  EXPECT_FALSE(of_end.ate_yaw_m || of_end.ate_m || of_end.ate_se3_m || of_end.max_error_m);
+  EXPECT_FALSE(of_end.control_points || of_end.drift);
+  EXPECT_TRUE(scores_json(of_end)["success"].is_null());
+  EXPECT_NE(to_text(trajectory_score_table(*scores)).find("M_end"), std::string::npos);
   request.end_pose = "0 0 0";  // a closed route, which the bend is not
   const auto closed = score_trajectories(*read_scoring_input(request));
   EXPECT_NEAR(closed->estimates[0].scores.m_end.value().norm_m, T_start_end.translation.norm(),
               1e-9);
   request.truth = plain().truth;
   EXPECT_NE(message_of(request).find("--truth or --end-pose"), std::string::npos);
+}
+
+TEST_F(ScoringInputs, ALeverArmMayBeInAFrameOfTheBody) {
+  const Pose T_imu_lidar{Eigen::Quaterniond(0, 1, 0, 0), {0.1, -0.2, 0.3}};
+  const Eigen::Vector3d in_lidar(0.03, -0.05, 0.28);
+  Trajectory prism = bend();
+  for (StampedPose& each : prism) {
+    each.pose.translation = each.pose * (T_imu_lidar * in_lidar);
+    each.pose.rotation.setIdentity();
+  }
+  ScoringRequest request = plain();
+  request.truth = file("prism.tum", tum_text(prism));
+  request.lever_arm = "0.03 -0.05 0.28";
+  request.lever_frame = "0.1 -0.2 0.3 1 0 0 0";
+  const auto scores = score_trajectories(*read_scoring_input(request));
+  ASSERT_TRUE(scores) << scores.error().message;
+  EXPECT_LT(scores->estimates[0].scores.ate_se3_m.value(), 1e-6);
+  request.lever_frame.clear();
+  const auto elsewhere = score_trajectories(*read_scoring_input(request));
+  EXPECT_GT(elsewhere->estimates[0].scores.ate_se3_m.value(), 0.05);
 }
 
 TEST_F(ScoringInputs, PositionsWrittenAsPosesAndFewPointsAreRecognized) {

@@ -157,6 +157,33 @@ TEST(SuitePage, HoldsTheSuiteAndEachRunsScores) {
   EXPECT_EQ(runs[1]["estimators"]["aims"]["diverged_at_s"], 12.5);
 }
 
+TEST(SuitePage, OfABenchmarkLeadsWithItsScore) {
+  const TemporaryFolder folder;
+  write_suite_json(folder.path(), Json::array({scenario("short", {1})}));
+  Json scores = record(1, 0.1);
+  scores["estimators"]["aims"]["control_points"] = {{"score", 60.0}};
+  write_record(folder.path(), "short", scores);
+  const Json benchmark = {
+      {"schema", "aims.benchmark/1"},    {"title", "A data set"}, {"citation", "someone"},
+      {"score", "control_points.score"}, {"unit", "of 100"},      {"notes", {"cite: someone"}}};
+  put(folder.path() / "benchmark.json", benchmark.dump());
+  const auto page = suite_page(folder.path(), {});
+  ASSERT_TRUE(page) << page.error().message;
+  EXPECT_EQ(page->title, "A data set");
+  const Json first = page->json["headline"][0];
+  EXPECT_EQ(first["key"], "control_points.score");
+  EXPECT_EQ(first["unit"], "of 100");
+  EXPECT_EQ(first["better"], "larger");
+  EXPECT_EQ(page->json["headline"][1]["key"], "ate_yaw_m");
+  EXPECT_EQ(page->json["runs"][0]["estimators"]["aims"]["control_points.score"], 60.0);
+  EXPECT_EQ(page->json["benchmark"], benchmark);
+  put(folder.path() / "benchmark.json", "{}");
+  const auto broken = suite_page(folder.path(), {});
+  ASSERT_TRUE(broken);
+  EXPECT_TRUE(broken->json["benchmark"].is_null());
+  EXPECT_EQ(broken->json["headline"][0]["key"], "ate_yaw_m");
+}
+
 TEST(SuitePage, LinksToTheRunsThatHaveAPageFromWhereItLies) {
   const TemporaryFolder folder;
   const fs::path suite = folder.path() / "suite";

@@ -33,6 +33,34 @@ test("the matrix shows the suite's own numbers", { skip }, async () => {
   assert.deepEqual(troubles, []);
 });
 
+test("a benchmark leads with its own score, whatever other scores order", { skip }, async () => {
+  const data = suite({ names: ["day"] });
+  const key = "control_points.score";
+  data.headline = [{ key, title: key, unit: "of 100", better: "larger" }, ...data.headline];
+  const [day] = data.suite.scenarios;
+  day.estimators.a.scores[key] = { median: 40, worst: 40, count: 3 };
+  day.estimators.b.scores[key] = { median: 60, worst: 60, count: 3 };
+  data.benchmark = {
+    title: "A data set", score: key, unit: "of 100", score_text: "points of control points", better: "larger",
+    notes: ["cite: someone", "day: truth: day_gt.txt"],
+    sequences: [
+      { name: "day", truth: "/data/day_gt.txt", lack: "", ours: { a: 40, b: 60 }, published: { LOAM: 50 } },
+      { name: kHostile, truth: "", lack: "no truth: looked for it", ours: { a: null, b: null }, published: {} },
+    ],
+  };
+  const { page, troubles, ready } = await pages.show(data);
+  assert.equal(ready, "true");
+  assert.match(await page.innerText("[data-verdict]"), /control_points\.score \[of 100\] on day: b 60\.000, a 40\.000\./);
+  const rows = await page.locator("#benchmark tbody tr").allInnerTexts();
+  assert.match(rows[0], /day\s+40\.000\s+60\.000\s+50\.000\s+day_gt\.txt/);
+  assert.match(rows[1], /not scored: no truth: looked for it/);
+  assert.match(await page.innerText("#benchmark"), /larger is better[^]*cite: someone/);
+  assert.equal(await page.locator("main section, section").first().getAttribute("id"), "benchmark");
+  assert.equal(Number(await cell(page, "day", "a").getAttribute("data-value")), 40);
+  assert.match(await cell(page, "day", "b").getAttribute("class"), /best/);
+  assert.deepEqual(troubles, []);
+});
+
 test("what was set and who failed stand at the head", { skip }, async () => {
   const data = suite();
   data.suite.settings = ["lidar.columns=90"];

@@ -4,7 +4,7 @@ import { h } from "../dom";
 import { isNumber } from "../format";
 import { failureMark, kPartLegend, partText, reasonName } from "../outcome";
 import { sortableTable, type Column } from "../table";
-import { runsOf, summaryOf, titleOf, type Run, type ScoreSummary, type SuitePayload, type SuiteScenario } from "./model";
+import { bestEnd, runsOf, summaryOf, titleOf, type Run, type ScoreSummary, type SuitePayload, type SuiteScenario } from "./model";
 
 function outcome(run: Run, estimator: string): Record<string, unknown> {
   return Object.hasOwn(run.estimators, estimator) ? run.estimators[estimator]! : {};
@@ -37,7 +37,7 @@ function runTable(data: SuitePayload, scenario: SuiteScenario, estimator: string
       },
     },
     ...data.headline.map((score): Column<Run> => ({
-      title: score.title, unit: score.unit, best: "low", eligible: (run) => !run.invalid && !isPart(run),
+      title: score.title, unit: score.unit, best: bestEnd(score), eligible: (run) => !run.invalid && !isPart(run),
       value: (run) => numberAt(outcome(run, estimator), score.key),
       show: (run) => partText(numberAt(outcome(run, estimator), score.key), isPart(run)),
     })),

@@ -7,7 +7,7 @@ import { formatNumber, isNumber, kNone } from "../format";
 import { failureCount, kPartLegend, partMark } from "../outcome";
 import { details } from "./details";
 import {
-  estimatorsOf, firstScore, isWhole, kSuccessRate, reasonsOf, runsOf, scoreKeysOf, summaryOf, titleOf, valueOf,
+  bestEnd, estimatorsOf, firstScore, isWhole, kSuccessRate, reasonsOf, runsOf, scoreKeysOf, summaryOf, titleOf, valueOf,
   type SuitePayload, type SuiteScenario,
 } from "./model";
 
@@ -104,7 +104,8 @@ function bestOf(data: SuitePayload, row: SuiteScenario, estimators: string[], vi
   const comparable = estimators.filter((name) => isComparable(data, row.name, name, view));
   const values = numbers([row], comparable, view);
   if (values.length < 2 || view.score.includes("signed")) return null;
-  return formatNumber(view.score === kSuccessRate ? Math.max(...values) : Math.min(...values));
+  const large = view.score === kSuccessRate || bestEnd(data.headline.find((each) => each.key === view.score)) === "high";
+  return formatNumber(large ? Math.max(...values) : Math.min(...values));
 }
 
 function intervalText(row: SuiteScenario, estimator: string, view: View): string | null {
@@ -137,7 +138,7 @@ function cell({ data, row, view, shade, best, open }: Cells, estimator: string):
   const why = failureCount(reasonsOf(data, row.name, estimator), diverged, summary.runs);
   const of = diverged > 0 ? `✕ ${why}` : `${summary.runs} of ${summary.runs}`;
   const interval = intervalText(row, estimator, view);
-  const amount = isNumber(value) ? Math.round(100 * shade(value)) : 0;
+  const amount = isNumber(value) ? Math.round(100 * shade(value)) : view.score === kSuccessRate ? 100 : 0;
   const button = h("button", {
     type: "button", class: "cell", tabindex: -1,
     "aria-label": `${row.name}, ${estimator}: ${text === kNone ? "no value" : text + part}` +
@@ -263,7 +264,7 @@ export function matrixSection(data: SuitePayload): HTMLElement {
   const search = h("input", { type: "search", placeholder: "part of a name", "aria-label": "Scenarios with this in their name" });
   search.addEventListener("input", () => change("text")(search.value));
   draw();
-  return section("matrix", "Scenarios and estimators",
+  return section("matrix", data.benchmark ? "Sequences and estimators" : "Scenarios and estimators",
     h("div", { class: "toolbar" },
       choice("Score", scores, first.value, change("score")),
       choice("Statistic", [{ value: "median", label: "median" }, { value: "worst", label: "worst" }], "median",

@@ -216,6 +216,22 @@ export interface Headline {
   key: string;
   title: string;
   unit: string;
+  better?: string;
+}
+
+/** benchmark.json: a public data set, scored as its authors score it. */
+export interface Benchmark {
+  title: string;
+  citation?: string;
+  url?: string;
+  licence?: string;
+  score: string;
+  unit: string;
+  score_text?: string;
+  better?: string;
+  published_source?: string;
+  notes?: string[];
+  sequences: { name: string; truth?: string; lack?: string; notes?: string[]; ours: Record<string, Maybe>; published: Record<string, Maybe> }[];
 }
 
 /** A scenario that could not be loaded, or estimators (a list of labels) that failed on one of its sequences. */
@@ -250,6 +266,7 @@ export interface SuitePayload extends PagePayload {
   consistency?: { cases: ConsistencyCase[] } | null;
   compare: Comparison | null;
   paper?: Paper | null;
+  benchmark?: Benchmark | null;
   notes?: string[];
 }
 
@@ -270,8 +287,14 @@ export function styleOf(data: SuitePayload, name: string): number {
   return own<number>(data.styles, name) ?? estimatorsOf(data).indexOf(name);
 }
 
-/** The score that is shown first: the heading-aligned ATE where there is one. */
+/** Which end of a score is best. */
+export function bestEnd(score: Headline | undefined): "low" | "high" {
+  return score?.better === "larger" ? "high" : "low";
+}
+
+/** The score that is shown first: that of a benchmark, else the heading-aligned ATE where there is one. */
 export function firstScore(data: SuitePayload): string {
+  if (data.benchmark) return data.benchmark.score;
   const keys = data.headline.map((each) => each.key);
   return ["ate_yaw_m", "ate_m"].find((key) => keys.includes(key)) ?? keys[0] ?? "";
 }

@@ -9,7 +9,7 @@ import { formatNumber, isNumber, kNone } from "../format";
 import { failureCount, kPartLegend, partMark, reasonName } from "../outcome";
 import { sortableTable, type Column } from "../table";
 import {
-  estimatorsOf, failuresOf, firstScore, isWhole, reasonsOf, runsOf, styleOf, summaryOf, titleOf,
+  bestEnd, estimatorsOf, failuresOf, firstScore, isWhole, reasonsOf, runsOf, styleOf, summaryOf, titleOf,
   type EstimatorSummary, type Headline, type SuitePayload, type SuiteScenario,
 } from "./model";
 
@@ -23,7 +23,7 @@ interface Row {
 
 /** Whether it is a median over runs of which none succeeded, which says nothing. */
 function isLost(row: Row, median: unknown): boolean {
-  return row.summary.successes === 0 && isNumber(median);
+  return row.summary.runs > 0 && row.summary.successes === 0 && isNumber(median);
 }
 
 /** Median and worst; marked where no run succeeded, and where they are of parts of the runs. */
@@ -31,7 +31,7 @@ function scoreColumn(data: SuitePayload, scenario: string, score: Headline): Col
   const of = (row: Row) => own<{ median: unknown; worst: unknown }>(row.summary.scores, score.key);
   const whole = (row: Row) => isWhole(data, scenario, row.name);
   return {
-    title: score.title, unit: score.unit, best: "low", eligible: (row) => row.summary.successes > 0 && whole(row),
+    title: score.title, unit: score.unit, best: bestEnd(score), eligible: (row) => row.summary.successes > 0 && whole(row),
     hint: "median over seeds (worst)",
     value: (row) => {
       const median = of(row)?.median;
@@ -47,6 +47,7 @@ function scoreColumn(data: SuitePayload, scenario: string, score: Headline): Col
 
 function successText(row: Row): string {
   const { successes, runs, success_low: low, success_high: high } = row.summary;
+  if (runs === 0 && row.failed === 0) return kNone;  // the truth says nothing of the way
   if (runs === 0) return `failed on ${row.failed} of ${row.seeds} seeds`;
   const rate = isNumber(low) && isNumber(high) ? ` (${Math.round(100 * low)}–${Math.round(100 * high)} %)` : "";
   return `${successes} of ${runs}${rate}${row.failed > 0 ? `, failed on ${row.failed} of ${row.seeds} seeds` : ""}`;
@@ -85,7 +86,7 @@ function table(data: SuitePayload, scenario: SuiteScenario): HTMLElement {
   ];
   const scored = rows.filter((row) => data.headline.some(({ key }) => isNumber(at(row.summary.scores, key, "median"))));
   const legend = [
-    "Median over seeds (worst).", scored.some((row) => row.summary.successes === 0) ? "✕: no run succeeded." : "",
+    "Median over seeds (worst).", scored.some((row) => row.summary.runs > 0 && row.summary.successes === 0) ? "✕: no run succeeded." : "",
     scored.some((row) => !isWhole(data, scenario.name, row.name)) ? kPartLegend : "",
     "Within 5 % (success), 1 %: position error of the distance travelled so far; interval: 95 %.",
   ];
@@ -177,7 +178,8 @@ export function seedsSection(data: SuitePayload): HTMLElement | null {
     h("div", { class: "seeds-parts" }, table(data, scenario),
       runsOf(data, scenario.name).length > 1 ? boxes(data, scenario, score) : ""));
   draw();
-  return section("seeds", scenarios.length === 1 ? "Over seeds" : "One scenario over its seeds",
+  const title = data.benchmark ? "All scores of a sequence" : scenarios.length === 1 ? "Over seeds" : "One scenario over its seeds";
+  return section("seeds", title,
     h("div", { class: "toolbar" },
       scenarios.length > 1 ? choice("Scenario", scenarios.map((each) => ({ value: each.name, label: each.name })), scenario.name, (name) => {
         scenario = scenarios.find((each) => each.name === name) ?? scenario;

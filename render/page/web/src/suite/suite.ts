@@ -6,6 +6,7 @@ import { h, section } from "../dom";
 import { firstLine, isNumber } from "../format";
 import { sortableTable } from "../table";
 import { themeButton } from "../theme";
+import { benchmarkSection, benchmarkVerdict } from "./benchmark";
 import { compareSection } from "./compare";
 import { consistencySection } from "./consistency";
 import { familySection } from "./families";
@@ -95,13 +96,13 @@ export function renderSuite(root: HTMLElement, data: SuitePayload): void {
   const runs = data.runs.length;
   const banner = invalidBanner(data);
   const one = data.suite.scenarios.length === 1;
-  const sections = [paperSection(data), one ? seedsSection(data) : matrixSection(data), one ? matrixSection(data) : seedsSection(data),
+  const sections = [benchmarkSection(data), paperSection(data), one ? seedsSection(data) : matrixSection(data), one ? matrixSection(data) : seedsSection(data),
     pairsSection(data), multiplesSection(data), familySection(data), rocSection(data), consistencySection(data), compareSection(data),
     expectationSection(data), failureSection(data)].filter((each) => each !== null);
   root.append(
     h("header", { class: "page-head" }, h("h1", {}, data.title), themeButton()),
     facts([
-      ["scenarios", data.suite.scenarios.length], ["estimators", estimatorText(data)], ["runs", runs],
+      [data.benchmark ? "sequences" : "scenarios", data.suite.scenarios.length], ["estimators", estimatorText(data)], ["runs", runs],
       ["", data.suite.complete === false ? "unfinished: runs are missing" : null],
       ["aims", data.version], ["code", data.suite.code],
     ]),
@@ -109,7 +110,7 @@ export function renderSuite(root: HTMLElement, data: SuitePayload): void {
     settingsLine(data) ?? "",
     ...(banner ? [banner] : []),
     failureBanner(data) ?? "",
-    seedsVerdict(data) ?? "",
+    (data.benchmark ? benchmarkVerdict(data) : seedsVerdict(data)) ?? "",
     h("nav", { class: "contents", "aria-label": "Contents" }, ...sections.map((each) =>
       h("a", { href: `#${each.id}` }, each.querySelector("h2")?.textContent ?? each.id))),
     ...sections);
