@@ -97,6 +97,7 @@ struct RecordingReader::Impl {
   void find_leap(const BagMessage& message, const Channel& channel, const MessageView& view);
   void note_latency(const BagMessage& message, const Channel& channel, const MessageView& view);
   void warn_of_leaps();
+  void warn_of_imu_leap();
   void warn_of_rates();
   void finish(std::vector<Delivery>& out);
 
@@ -475,6 +476,20 @@ void RecordingReader::Impl::warn_of_leaps() {
   }
 }
 
+/// Warns of stamps of the IMU that leap while those of the LiDAR go on; the recorder is not to
+/// blame.
+void RecordingReader::Impl::warn_of_imu_leap() {
+  constexpr auto kImu = static_cast<std::size_t>(Role::kImu);
+  constexpr auto kLidar = static_cast<std::size_t>(Role::kLidar);
+  if (steady_imu.was_always_steady() || leaps[kLidar].count() > 0) return;
+  const auto step = trends[kImu].step(trends[kLidar]);
+  if (!step || std::abs(*step) < SteadyTopic::kUsual) return;
+  counts.erase("recorded_before_their_stamp");
+  counts.erase("recorded_long_after_their_stamp");
+  const TopicsConfig& topics = plan.setup.topics;
+  plan.setup.warnings.push_back(warning_of_imu_leap(topics.imu, topics.lidar, -*step));
+}
+
 /// Warns of clocks that run at different rates.
 void RecordingReader::Impl::warn_of_rates() {
   constexpr auto kImu = static_cast<std::size_t>(Role::kImu);
@@ -493,6 +508,7 @@ void RecordingReader::Impl::warn_of_rates() {
 void RecordingReader::Impl::finish(std::vector<Delivery>& out) {
   release(std::numeric_limits<Time>::max(), out);
   warn_of_leaps();
+  warn_of_imu_leap();
   warn_of_rates();
   warn_of_missing(Role::kImu);
   warn_of_missing(Role::kLidar);

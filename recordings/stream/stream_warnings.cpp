@@ -35,6 +35,15 @@ ReadingWarning warning_of_missing(Role role, const std::string& topic, double mi
           sensor};
 }
 
+ReadingWarning warning_of_imu_leap(const std::string& imu, const std::string& lidar,
+                                   Duration leap) {
+  return {
+      fmt::format("stamps of {} leap", imu),
+      fmt::format("{}: stamps leap by {:.3f} s, while record times and the stamps of {} do not: "
+                  "what is before and behind it does not fit together",
+                  imu, to_seconds(leap), lidar)};
+}
+
 ReadingWarning warning_of_rates(const std::string& topic, const std::string& other, double growth) {
   return {
       fmt::format("clocks of {} and {} run at different rates", topic, other),

@@ -270,6 +270,26 @@ TEST_F(AssumedInputs, AClockThatRunsAtAnotherRateIsAWarning) {
   }
 }
 
+TEST_F(AssumedInputs, StampsOfTheImuThatLeapLateAreNoMatterOfTheRecorder) {
+  for (const Duration leap : {Duration{0}, kSecond, -kSecond}) {
+    std::filesystem::remove(bag());
+    RobotRecording robot(bag());
+    robot.add_transforms(kMounted);
+    robot.add_clouds(kStart, 600);
+    for (int k = 0; k < 3000; ++k) {
+      const Time now = kStart + k * 20 * kMillisecond;
+      ImuSample sample;
+      sample.stamp = now + (k > 2500 ? leap : 0);
+      sample.specific_force.z() = 9.81;
+      robot.add("/imu", imu_type(), now, imu_message({0, sample.stamp, "imu"}, sample));
+    }
+    robot.close();
+    const Recording read = test::read_recording(bag(), {});
+    EXPECT_EQ(warns(read.setup, "/imu: stamps leap by "), leap != 0) << leap;
+    EXPECT_FALSE(read.counts.contains("recorded_before_their_stamp")) << leap;
+  }
+}
+
 TEST_F(AssumedInputs, FramesThatAreNoneOfASensorAreWarnings) {
   const auto setup_of = [this](const std::vector<FrameTransform>& frames, const std::string& topic,
                                const std::string& lidar) {
