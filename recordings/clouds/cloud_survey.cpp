@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "recordings/clouds/scan_period.hpp"
@@ -130,6 +131,13 @@ void CloudSurvey::add(const PointTable& table, Time record_time) {
   clouds_.push_back(std::move(cloud));
 }
 
+/// 0 of fewer than two stamps.
+Duration CloudSurvey::mean_spacing() const {
+  const std::vector<Duration> all = spacings(stamps());
+  const Duration sum = std::accumulate(all.begin(), all.end(), Duration{0});
+  return all.empty() ? 0 : sum / std::ssize(all);
+}
+
 std::vector<Time> CloudSurvey::stamps() const {
   std::vector<Time> all;
   for (const Cloud& cloud : clouds_) all.push_back(time_of(cloud));
@@ -240,10 +248,12 @@ void CloudSurvey::decide_times(const RecordingConfig& config, CloudReading& read
     notes.push_back(fmt::format("point field '{}' does not advance during the scan: not a time",
                                 time_fields_[field]));
   }
-  const bool too_long = span && *span >= 2 * about;
-  const std::optional<Duration> period = scan_period(stamps(), too_long ? std::nullopt : span);
+  const bool too_long = span && 2 * *span >= 3 * std::max(about, mean_spacing());
+  const std::optional<Duration> period =
+      scan_period(stamps(), too_long ? std::nullopt : span, 1.0 - turn_parts_.blind_part());
   reading.period =
       std::clamp(period.value_or(fallback), kMillisecond, static_cast<Duration>(kLongestScan));
+  reading.spacing = usual_spacing(stamps(), reading.period);
   if (!period) {
     notes.push_back(fmt::format("too few clouds to measure the scan period: {:g} s from lidar_rate",
                                 to_seconds(reading.period)));
@@ -261,6 +271,7 @@ void CloudSurvey::decide_times(const RecordingConfig& config, CloudReading& read
                     to_seconds(reading.period)));
   }
   if (too_long) warn_of_length(*span, about, reading, notes);
+  if (span && reading.spacing > reading.period) warn_of_shortness(*span, reading, notes);
   notes.push_back(fmt::format("point time: field '{}' in {}, {}", reading.time_field,
                               unit_name(reading.time_unit),
                               kOrigins[static_cast<std::size_t>(reading.clock)]));
@@ -272,8 +283,20 @@ void CloudSurvey::warn_of_length(Duration span, Duration about, const CloudReadi
   notes.warn(
       "point times longer than the scan",
       fmt::format("point field '{}' spans {:.4g} s, but a cloud comes every {:.4g} s: is its "
-                  "unit not {} (point_time_unit)?",
+                  "unit not {} (point_time_unit), or its scale another one?",
                   reading.time_field, to_seconds(span), to_seconds(about),
+                  unit_name(reading.time_unit)));
+}
+
+/// Warns of point times of a turn that is over long before the next cloud.
+void CloudSurvey::warn_of_shortness(Duration span, const CloudReading& reading,
+                                    ReadingNotes& notes) {
+  notes.warn(
+      "point times shorter than the scan",
+      fmt::format("point field '{}' spans {:.4g} s, but clouds come every {:.4g} s: were those "
+                  "between them left out on purpose, or is its unit not {} (point_time_unit), or "
+                  "its scale another one?",
+                  reading.time_field, to_seconds(span), to_seconds(reading.spacing),
                   unit_name(reading.time_unit)));
 }
 

@@ -45,6 +45,8 @@ class CloudSurvey {
   bool is_normalized(std::size_t field, double span, Duration about) const;
   static void warn_of_length(Duration span, Duration about, const CloudReading& reading,
                              ReadingNotes& notes);
+  static void warn_of_shortness(Duration span, const CloudReading& reading, ReadingNotes& notes);
+  Duration mean_spacing() const;
   void stamp_by_record(CloudReading& reading, ReadingNotes& notes) const;
   bool decide_clock(const RecordingConfig& config, std::size_t field, Duration about,
                     CloudReading& reading) const;

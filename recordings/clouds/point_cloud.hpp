@@ -34,6 +34,7 @@ struct CloudReading {
   CloudStamp stamp = CloudStamp::kStart;  ///< never kAuto
   bool counted_from_start = true;         ///< times begin with the scan, not at the stamp
   Duration period = 100 * kMillisecond;   ///< nominal, of one cloud
+  Duration spacing = 0;                   ///< of clouds where none is lost; 0: not known
   TurnParts parts;                        ///< of clouds that are no whole scans
   bool clockwise = true;                  ///< direction of spin, for kNone
   RingSource ring_source = RingSource::kNone;

@@ -17,6 +17,16 @@ Duration integer_rate(Duration period) {
   return std::abs(rounded - period) <= period * 3 / 100 ? rounded : period;
 }
 
+/// How many scans of that period are as long as `spacing`.
+Duration scans_in(Duration spacing, Duration period) {
+  return std::max<Duration>(1, (spacing + period / 2) / period);
+}
+
+/// The time of a turn of which the part `seen` takes `span`.
+Duration whole_turn(Duration span, double seen) {
+  return seen > 0.0 ? std::llround(static_cast<double>(span) / seen) : kLongestScan;
+}
+
 }  // namespace
 
 std::vector<Duration> spacings(std::vector<Time> stamps) {
@@ -28,7 +38,8 @@ std::vector<Duration> spacings(std::vector<Time> stamps) {
   return between;
 }
 
-std::optional<Duration> scan_period(std::vector<Time> stamps, std::optional<Duration> span) {
+std::optional<Duration> scan_period(std::vector<Time> stamps, std::optional<Duration> span,
+                                    double seen) {
   std::vector<Duration> between = spacings(std::move(stamps));
   std::erase_if(between, [&](Duration each) { return span && each < *span - *span / 10; });
   if (between.empty()) {
@@ -37,10 +48,11 @@ std::optional<Duration> scan_period(std::vector<Time> stamps, std::optional<Dura
     return integer_rate(*span);
   }
   const Duration shortest = *std::min_element(between.begin(), between.end());
-  const Duration base = span && shortest > *span + *span / 2 ? *span : shortest;
+  const Duration turn = whole_turn(span.value_or(shortest), seen);
+  const Duration base = shortest > turn + turn / 2 ? turn : shortest;
   std::map<Duration, std::size_t> periods;
   for (const Duration each : between) {
-    const Duration scans = std::max<Duration>(1, (each + base / 2) / base);
+    const Duration scans = scans_in(each, base);
     ++periods[(each + scans / 2) / scans];
   }
   const auto mode = std::max_element(periods.begin(), periods.end(),
@@ -50,8 +62,19 @@ std::optional<Duration> scan_period(std::vector<Time> stamps, std::optional<Dura
   for (const auto& [period, times] : periods) each.insert(each.end(), times, period);
   // Jittering stamps: the firing span measures the period better, if it is close.
   const Duration typical = *upper_median(each);
-  const Duration fired = integer_rate(span.value_or(typical));
-  return std::abs(fired - typical) <= typical / 4 ? fired : integer_rate(typical);
+  const auto off = [typical](Duration period) { return std::abs(period - typical); };
+  const Duration whole = integer_rate(span ? turn : typical);
+  const Duration seen_only = integer_rate(span.value_or(typical));
+  const Duration fired = off(whole) < off(seen_only) ? whole : seen_only;
+  return off(fired) <= typical / 4 ? fired : integer_rate(typical);
+}
+
+Duration usual_spacing(std::vector<Time> stamps, Duration period) {
+  std::map<Duration, std::size_t> times;
+  for (const Duration each : spacings(std::move(stamps))) ++times[scans_in(each, period)];
+  const auto mode = std::max_element(times.begin(), times.end(),
+                                     [](auto& a, auto& b) { return a.second < b.second; });
+  return mode == times.end() ? period : mode->first * period;
 }
 
 std::optional<double> time_unit(double span, Duration about) {

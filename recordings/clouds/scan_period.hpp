@@ -16,8 +16,13 @@ std::vector<Duration> spacings(std::vector<Time> stamps);
 
 /// Nominal period of the scans that start at `stamps`, some of which may be missing: the most
 /// frequent spacing, else the nearest integer rate. `span`: time from first to last firing, if
-/// known. Nothing without two different stamps or a span.
-std::optional<Duration> scan_period(std::vector<Time> stamps, std::optional<Duration> span);
+/// known; `seen`: the part of a turn that it covers at least, where the LiDAR is blind behind.
+/// Nothing without two different stamps or a span.
+std::optional<Duration> scan_period(std::vector<Time> stamps, std::optional<Duration> span,
+                                    double seen = 1.0);
+
+/// The spacing that most scans of that period have: a multiple where some are left out on purpose.
+Duration usual_spacing(std::vector<Time> stamps, Duration period);
 
 /// Nanoseconds per unit (s, ms, us or ns) in which `span` is nearest to a scan of `about`, or
 /// nothing when none is close.

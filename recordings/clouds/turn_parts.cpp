@@ -27,6 +27,17 @@ double within_turn(double angle) { return angle - kFullTurn * std::floor(angle /
 /// The angle from minus half a turn to half a turn.
 double signed_turn(double angle) { return within_turn(angle + 0.5 * kFullTurn) - 0.5 * kFullTurn; }
 
+/// The most neighbours on a circle that are not set.
+template <std::size_t kSize>
+std::size_t longest_gap(const std::bitset<kSize>& seen) {
+  std::size_t longest = 0, gap = 0;
+  for (std::size_t i = 0; i < 2 * kSize; ++i) {
+    gap = seen[i % kSize] ? 0 : gap + 1;
+    longest = std::max(longest, gap);
+  }
+  return std::min(longest, kSize);
+}
+
 /// The middle of the azimuths of the returns; nothing of too few.
 std::optional<double> middle_of(const LidarScan& scan) {
   Eigen::Vector2f sum = Eigen::Vector2f::Zero();
@@ -79,6 +90,14 @@ TurnParts TurnPartFinder::find() const {
   if (!steady || size * static_cast<double>(steps.size()) < kLeastSeen) return {};
   const int count = std::max(2, static_cast<int>(std::lround(kFullTurn / size)));
   return {count, sense * kFullTurn / count};
+}
+
+double TurnPartFinder::blind_part() const {
+  std::vector<double> parts;
+  for (const Cloud& each : clouds_) {
+    parts.push_back(static_cast<double>(longest_gap(each.seen)) / static_cast<double>(kBins));
+  }
+  return upper_median(parts).value_or(0.0);
 }
 
 TurnJoiner::TurnJoiner(const TurnParts& parts, Duration period)

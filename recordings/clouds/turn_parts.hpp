@@ -27,6 +27,9 @@ class TurnPartFinder {
 
   TurnParts find() const;
 
+  /// The largest part of the turn in which a cloud has no returns, in the median of the clouds [-].
+  double blind_part() const;
+
  private:
   static constexpr std::size_t kBins = 72;
   struct Cloud {

@@ -186,6 +186,7 @@ Result<BagInfo> bag_info(const std::filesystem::path& bag, const RecordingConfig
   const auto recording = RecordingReader::open(bag, config, options);
   if (recording) {
     info.used = recording->setup().topics;
+    if (!recording->setup().has_legs) info.leg_lack = recording->setup().leg_lack;
     info.notes = recording->setup().notes;
     for (const ReadingWarning& each : recording->setup().warnings) {
       info.notes.push_back(each.text);

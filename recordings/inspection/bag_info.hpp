@@ -83,8 +83,9 @@ struct StaticInterval {
 
 struct ImuInfo {
   std::string topic;
-  bool in_g = false;      ///< the specific force is in units of 9.80665 m/s^2
-  bool oriented = false;  ///< its orientation is a unit quaternion
+  std::optional<double> new_rate_hz;  ///< of new samples, where each is sent several times
+  bool in_g = false;                  ///< the specific force is in units of 9.80665 m/s^2
+  bool oriented = false;              ///< its orientation is a unit quaternion
   std::optional<StaticInterval> static_interval;  ///< none: shorter than a second
 };
 
@@ -108,6 +109,7 @@ struct BagInfo {
   std::uint64_t undecodable = 0;       ///< messages that contradict their definition
   std::string first_undecodable;       ///< error of the first
   TopicsConfig used;                   ///< topics used by `aims estimate`; empty: none
+  std::string leg_lack;                ///< why `aims estimate` reads no legs; empty: it does
   bool opens_without_lidar = false;    ///< refused, but not with recording.topics.lidar=none
   bool extrinsics_configured = false;  ///< T_imu_lidar of the configuration is used
   std::vector<std::string> notes;      ///< of `aims estimate`: assumptions and conversions

@@ -98,14 +98,19 @@ const TopicInfo* reference_of(const BagInfo& info) {
   return nullptr;
 }
 
+/// Whether reading says of a topic that its stamps are off, without the time that the sensor takes.
+bool is_said(const BagInfo& info, const std::string& topic) {
+  return std::ranges::any_of(info.notes, [&topic](const std::string& note) {
+    return note.starts_with(topic + ": stamps are") || note.starts_with(topic + ": stamps do not");
+  });
+}
+
 /// Stamps whose clock is not that of the IMU, or without an IMU not the recorder's.
 void warn_of_stamps(const BagInfo& info, const TopicInfo& topic, std::vector<std::string>& out) {
-  // Reading says the same, without the time that the sensor takes.
-  const bool said = std::ranges::any_of(info.notes, [&](const std::string& note) {
-    return note.starts_with(topic.topic + ": stamps are");
-  });
-  if (!topic.stamped || said || !topic.median_offset_s) return;
   const TopicInfo* reference = reference_of(info);
+  const bool said =
+      is_said(info, topic.topic) || (reference != nullptr && is_said(info, reference->topic));
+  if (!topic.stamped || said || !topic.median_offset_s) return;
   const double offset =
       *topic.median_offset_s - (reference != nullptr ? *reference->median_offset_s : 0.0);
   if (std::abs(offset) <= kMaxOffset) return;
@@ -146,7 +151,7 @@ void warn_of_times(const BagInfo& info, const TopicInfo& topic, std::vector<std:
                     topic.rate_hz.value_or(0.0) / *topic.messages_per_stamp,
                     *topic.messages_per_stamp > kStandingClock ? "record times serve in their place"
                                                                : "one of each batch is used"));
-  } else if (topic.repeated + topic.backwards > 0) {
+  } else if (topic.repeated + topic.backwards > 0 && !is_said(info, topic.topic)) {
     out.push_back(
         fmt::format("{}: {} stamps repeat and {} go backwards; such messages are dropped: fix the "
                     "driver's clock",
@@ -156,7 +161,9 @@ void warn_of_times(const BagInfo& info, const TopicInfo& topic, std::vector<std:
 }
 
 /// A different clock shows as a shift between the angular rates.
-void warn_of_clock(const TopicInfo& topic, std::vector<std::string>& out) {
+void warn_of_clock(const BagInfo& info, const TopicInfo& topic, std::vector<std::string>& out) {
+  // Of clocks that differ by more than the shifts that are tried, a gait has an alias among them.
+  if (is_said(info, topic.topic) || is_said(info, info.used.imu)) return;
   if (!topic.clock || std::abs(topic.clock->seconds) < kMaxClockOffset) return;
   out.push_back(
       fmt::format("{}: angular rates are {:.1f} ms {} the IMU's (correlation {:.2f}); if it is the "
@@ -222,6 +229,12 @@ void warn_of_imu(const BagInfo& info, const ImuInfo& imu, std::vector<std::strin
         imu.topic));
   }
   const TopicInfo* topic = info.find(imu.topic);
+  if (imu.new_rate_hz) {
+    out.push_back(
+        fmt::format("{}: each sample is sent several times, {:.0f} new ones come in a second: "
+                    "other systems take the repetitions for samples",
+                    imu.topic, *imu.new_rate_hz));
+  }
   constexpr double kNominal = 0.95;  // of a rate that is meant
   if (topic && topic->rate_hz.value_or(kMinImuRate) < kNominal * kMinImuRate) {
     out.push_back(
@@ -297,7 +310,7 @@ std::vector<std::string> bag_warnings(const BagInfo& info) {
   }
   for (const TopicInfo& each : info.topics) {
     warn_of_times(info, each, out);
-    warn_of_clock(each, out);
+    warn_of_clock(info, each, out);
   }
   warn_of_offsets(info, out);
   for (const CloudInfo& each : info.clouds) warn_of_clouds(each, out);

@@ -35,6 +35,12 @@ std::string_view driver_of(const PointTable& table) {
 constexpr std::uint64_t kMaxClouds = 20;
 constexpr std::size_t kUnitSamples = 100;  ///< of an IMU, to find its unit
 
+std::vector<double> numbers_of(const ImuSample& sample) {
+  std::vector<double> numbers(sample.angular_velocity.begin(), sample.angular_velocity.end());
+  numbers.insert(numbers.end(), sample.specific_force.begin(), sample.specific_force.end());
+  return numbers;
+}
+
 }  // namespace
 
 CloudInspection::CloudInspection(std::string topic) { info_.topic = std::move(topic); }
@@ -100,11 +106,19 @@ void ImuInspection::decide_unit() {
   const double typical = upper_median(norms).value_or(kStandardGravity);
   info_.in_g = is_in_gravities(typical);
   unit_known_ = true;
+  RepeatFinder finder;
+  for (const ImuSample& each : first_) finder.add(each.stamp, numbers_of(each));
+  if (const auto period = finder.period()) {
+    repeats_.emplace(*period);
+    info_.new_rate_hz = 1.0 / to_seconds(*period);
+  }
   for (const ImuSample& each : first_) add_in_si(each);
   first_.clear();
 }
 
+/// A sample that is sent again is no further one.
 void ImuInspection::add_in_si(ImuSample sample) {
+  if (repeats_ && repeats_->repeats(sample.stamp, numbers_of(sample))) return;
   if (info_.in_g) sample.specific_force *= kStandardGravity;
   static_intervals_.add(sample);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "recordings/inspection/bag_info.hpp"
 #include "recordings/inspection/static_interval.hpp"
 #include "recordings/messages/message_decoder.hpp"
+#include "recordings/stream/repeated_samples.hpp"
 
 namespace aims {
 
@@ -39,6 +41,7 @@ class ImuInspection {
   ImuInfo info_;
   bool unit_known_ = false;
   std::vector<ImuSample> first_;  ///< until the unit is known
+  std::optional<RepeatFilter> repeats_;
   StaticIntervalFinder static_intervals_;
 };
 

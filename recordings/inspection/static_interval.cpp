@@ -29,6 +29,10 @@ void StaticIntervalFinder::Sums::add(const ImuSample& sample, const ImuSample& o
   rate_squares += rate_off.cwiseProduct(rate_off);
   force += force_off;
   force_squares += force_off.cwiseProduct(force_off);
+  const double since = to_seconds(sample.stamp - begin);
+  time += since;
+  time_squares += since * since;
+  force_by_time += since * force_off;
 }
 
 void StaticIntervalFinder::Sums::add(const Sums& other) {
@@ -41,6 +45,23 @@ void StaticIntervalFinder::Sums::add(const Sums& other) {
   force_squares += other.force_squares;
 }
 
+/// Whether the specific force turns as the mean rate says: then it is no bias.
+bool StaticIntervalFinder::turns(const Sums& window) const {
+  constexpr double kClear = 3.0;  // times the standard deviation of the trend
+  const int count = window.samples;
+  const double spread = window.time_squares - window.time * window.time / count;
+  if (!(spread > 0.0)) return false;
+  const Eigen::Vector3d rate = origin_->angular_velocity + window.rate / count;
+  const Eigen::Vector3d force = origin_->specific_force + window.force / count;
+  const Eigen::Vector3d turning = force.cross(rate);
+  const Eigen::Vector3d trend =
+      (window.force_by_time - window.time / count * window.force) / spread;
+  const double noise =
+      deviation(window.force, window.force_squares, count).maxCoeff() / std::sqrt(spread);
+  const double half = 0.5 * turning.norm();
+  return half > kClear * noise && trend.dot(turning) > half * turning.norm();
+}
+
 bool StaticIntervalFinder::is_static(const Sums& window) const {
   if (window.samples < kMinSamples) return false;
   const Eigen::Vector3d mean = origin_->angular_velocity + window.rate / window.samples;
@@ -48,7 +69,8 @@ bool StaticIntervalFinder::is_static(const Sums& window) const {
          deviation(window.rate, window.rate_squares, window.samples).maxCoeff() <
              kMaxRateDeviation &&
          deviation(window.force, window.force_squares, window.samples).maxCoeff() <
-             kMaxForceDeviation;
+             kMaxForceDeviation &&
+         !turns(window);
 }
 
 void StaticIntervalFinder::close_window() {

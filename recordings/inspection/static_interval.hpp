@@ -29,6 +29,8 @@ class StaticIntervalFinder {
     Eigen::Vector3d rate_squares = Eigen::Vector3d::Zero();
     Eigen::Vector3d force = Eigen::Vector3d::Zero();
     Eigen::Vector3d force_squares = Eigen::Vector3d::Zero();
+    double time = 0.0, time_squares = 0.0;  ///< of a window, since its begin
+    Eigen::Vector3d force_by_time = Eigen::Vector3d::Zero();
 
     void add(const ImuSample& sample, const ImuSample& origin);
     void add(const Sums& other);
@@ -36,6 +38,7 @@ class StaticIntervalFinder {
 
   void close_window();
   bool is_static(const Sums& window) const;
+  bool turns(const Sums& window) const;
 
   std::optional<ImuSample> origin_;
   std::optional<Time> first_;  ///< earliest stamp

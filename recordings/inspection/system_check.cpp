@@ -10,6 +10,11 @@ namespace {
 
 constexpr double kMinStaticStart = 2.0;  ///< [s]
 
+/// Of new samples [Hz].
+double rate_of(const ImuInfo& imu, const TopicInfo& times) {
+  return imu.new_rate_hz.value_or(times.rate_hz.value_or(0.0));
+}
+
 }  // namespace
 
 Inventory inventory_of(const BagInfo& bag) {
@@ -23,8 +28,7 @@ Inventory inventory_of(const BagInfo& bag) {
   }
   for (const ImuInfo& each : bag.imus) {
     const TopicInfo* times = bag.find(each.topic);
-    if (found.imu && times->rate_hz.value_or(0.0) <= found.imu_times->rate_hz.value_or(0.0))
-      continue;
+    if (found.imu && rate_of(each, *times) <= rate_of(*found.imu, *found.imu_times)) continue;
     found.imu = &each;
     found.imu_times = times;
   }
@@ -97,7 +101,7 @@ void SystemCheck::imu(double min_hz, double good_hz) {
   if (!bag_.imu) {
     return add(Fulfilment::kMissing, "IMU", "none", "record sensor_msgs/Imu");
   }
-  const double rate = bag_.imu_times->rate_hz.value_or(0.0);
+  const double rate = rate_of(*bag_.imu, *bag_.imu_times);
   const std::string found = fmt::format("{} at {:.0f} Hz", bag_.imu->topic, rate);
   const std::string required = fmt::format("IMU of {:.0f} Hz or more", good_hz);
   if (rate >= 0.95 * good_hz) {
@@ -154,6 +158,7 @@ void SystemCheck::unitree_state() {
 
 bool SystemCheck::has_legs() const {
   const TopicsConfig& used = bag_.bag->used;
+  if (!bag_.bag->leg_lack.empty()) return false;
   return !used.leg_odometry.empty() || (!used.joint_states.empty() && !used.contacts.empty());
 }
 
@@ -163,7 +168,8 @@ void SystemCheck::legs() {
     return met("leg odometry",
                used.leg_odometry.empty() ? "from joints and contacts" : used.leg_odometry);
   }
-  add(Fulfilment::kMissing, "leg odometry", "none",
+  const std::string& lack = bag_.bag->leg_lack;
+  add(Fulfilment::kMissing, "leg odometry", lack.empty() ? "none" : lack,
       "name its topic (--topics leg_odometry=/...), or use the estimator lio");
 }
 

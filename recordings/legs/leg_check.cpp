@@ -89,8 +89,17 @@ void LegCheck::add_imu(const ImuSample& sample, const Eigen::Vector3d& place) {
   if (sample.stamp - begin_ >= kWindow) close();
 }
 
-void LegCheck::add_feet(const std::vector<StandingFoot>& feet, const Eigen::Vector3d& velocity) {
+void LegCheck::add_joints(const std::array<double, kJointCount>& angles) {
+  if (!window_.angles) window_.angles = angles;
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    if (angles[i] != (*window_.angles)[i]) window_.moved[i / 3] = true;
+  }
+}
+
+void LegCheck::add_feet(const std::vector<StandingFoot>& feet, const Eigen::Vector3d& velocity,
+                        bool differenced) {
   if (!last_ || feet.empty() || !velocity.allFinite()) return;
+  window_.differenced = window_.differenced || differenced;
   signs_.add_legs(velocity);
   ++window_.legs;
   window_.by_legs += R_world_base_ * (velocity + turning_.cross(place_));
@@ -121,16 +130,22 @@ void LegCheck::close() {
   compare_turning();
   compare_velocities();
   if (window_.legs >= kFewestSamples && window_.speed > kWalking * window_.legs) {
-    for (std::size_t leg = 0; leg < stances_.size(); ++leg) {
-      stances_[leg].samples += window_.stances[leg].samples;
-      stances_[leg].depth += window_.stances[leg].depth;
-      stances_[leg].apart += window_.stances[leg].apart;
-      stances_[leg].below += window_.stances[leg].below;
-    }
-    compare_slopes();
+    count_walking();
+    if (!window_.differenced) compare_slopes();
   }
   window_ = {};
   begin_ = *last_;
+}
+
+void LegCheck::count_walking() {
+  walked_ += window_.angles ? 1 : 0;
+  for (std::size_t leg = 0; leg < stances_.size(); ++leg) {
+    frozen_[leg] += window_.angles && !window_.moved[leg] ? 1 : 0;
+    stances_[leg].samples += window_.stances[leg].samples;
+    stances_[leg].depth += window_.stances[leg].depth;
+    stances_[leg].apart += window_.stances[leg].apart;
+    stances_[leg].below += window_.stances[leg].below;
+  }
 }
 
 void LegCheck::compare_slopes() {
@@ -187,6 +202,41 @@ void LegCheck::compare_direction(const std::optional<Velocities>& now) {
   const double ratio = by_force.norm() / by_legs.norm();
   if (ratio < kLeastScale || ratio > 1.0 / kLeastScale || std::abs(cosine) < kClear) return;
   ++(cosine > 0.0 ? along_ : against_);
+}
+
+/// Warns of legs whose angles stand still while the robot walks; whether there are some.
+bool LegCheck::check_frozen(std::vector<ReadingWarning>& found) const {
+  std::vector<std::string_view> legs;
+  for (std::size_t leg = 0; leg < frozen_.size(); ++leg) {
+    if (2 * frozen_[leg] > walked_) legs.emplace_back(kLegNames[leg]);
+  }
+  if (legs.empty() || walked_ < kFewestWindows) return false;
+  found.push_back({"angles of a leg stand still",
+                   fmt::format("the joint angles of {} do not change while the robot walks: the "
+                               "driver does not read them, or sends the last ones again",
+                               fmt::join(legs, ", ")),
+                   WarnedSensor::kLegs});
+  return true;
+}
+
+/// Warns of feet that never stand while the robot walks.
+void LegCheck::check_idle(std::vector<ReadingWarning>& found) const {
+  constexpr int kOften = 20;  // times as many samples of another foot
+  if (!(geometry_.thigh + geometry_.calf > 0.0)) return;
+  const int most = std::ranges::max_element(stances_, {}, &Stance::samples)->samples;
+  std::vector<std::string_view> feet;
+  for (std::size_t leg = 0; leg < stances_.size(); ++leg) {
+    if (kOften * stances_[leg].samples < most && !without_contacts_[leg]) {
+      feet.emplace_back(kLegNames[leg]);
+    }
+  }
+  if (feet.empty() || most < kFewestStances) return;
+  found.push_back({"a foot never stands",
+                   fmt::format("no contact of {} while the robot walks: is a sensor dead, or the "
+                               "load below the threshold (contact_threshold, contacts_field)? Only "
+                               "the other feet serve",
+                               fmt::join(feet, ", ")),
+                   WarnedSensor::kLegs});
 }
 
 /// Warns of legs that no robot walks on.
@@ -334,6 +384,9 @@ void LegCheck::check_direction(std::vector<ReadingWarning>& found) const {
 
 std::vector<ReadingWarning> LegCheck::warnings() const {
   std::vector<ReadingWarning> found;
+  if (check_frozen(found)) return found;  // which spoils all else
+  check_idle(found);
+  if (!found.empty()) return found;
   check_stances(found);
   if (found.empty()) check_slopes(found);
   if (found.empty()) check_sides(found);

@@ -44,12 +44,19 @@ class SignalAgreement {
 class LegCheck {
  public:
   /// Without lengths of the legs it is not judged where the feet are.
-  explicit LegCheck(const LegGeometry& geometry) : geometry_(geometry) {}
+  /// `without_contacts`: feet of which it is known that no contact of them is used.
+  explicit LegCheck(const LegGeometry& geometry,
+                    const std::array<bool, kLegCount>& without_contacts = {})
+      : geometry_(geometry), without_contacts_(without_contacts) {}
 
   /// In base axes; `place` is that of the IMU in the base.
   void add_imu(const ImuSample& sample, const Eigen::Vector3d& place);
-  /// The feet in contact and the velocity of the base that they state, in base axes.
-  void add_feet(const std::vector<StandingFoot>& feet, const Eigen::Vector3d& velocity);
+  /// The angles of all joints, before the feet of that instant.
+  void add_joints(const std::array<double, kJointCount>& angles);
+  /// The feet in contact and the velocity of the base that they state, in base axes; `differenced`:
+  /// by differences of angles, of which some reach over touchdown.
+  void add_feet(const std::vector<StandingFoot>& feet, const Eigen::Vector3d& velocity,
+                bool differenced = false);
 
   /// What contradicts; nothing with too little motion.
   std::vector<ReadingWarning> warnings() const;
@@ -74,6 +81,9 @@ class LegCheck {
     /// Turn rate about z by what pairs of feet do along x and y, weighted, and the weights.
     Eigen::Vector2d by_feet = Eigen::Vector2d::Zero(), weight = Eigen::Vector2d::Zero();
     std::array<Stance, kLegCount> stances;
+    bool differenced = false;                               ///< velocities of feet are
+    std::optional<std::array<double, kJointCount>> angles;  ///< the first
+    std::array<bool, kLegCount> moved{};                    ///< angles of the leg changed
   };
   /// Mean velocities of a window.
   struct Velocities {
@@ -84,6 +94,9 @@ class LegCheck {
   void compare_velocities();
   void compare_direction(const std::optional<Velocities>& now);
   void compare_slopes();
+  void count_walking();
+  bool check_frozen(std::vector<ReadingWarning>& found) const;
+  void check_idle(std::vector<ReadingWarning>& found) const;
   void check_stances(std::vector<ReadingWarning>& found) const;
   void check_slopes(std::vector<ReadingWarning>& found) const;
   void check_sides(std::vector<ReadingWarning>& found) const;
@@ -92,6 +105,7 @@ class LegCheck {
   void check_direction(std::vector<ReadingWarning>& found) const;
 
   LegGeometry geometry_;
+  std::array<bool, kLegCount> without_contacts_;
   AxisSigns signs_;
   std::optional<Time> last_;  ///< stamp of the IMU
   Time begin_ = 0;            ///< of the window
@@ -108,6 +122,8 @@ class LegCheck {
   std::array<SignalAgreement, 2>
       changes_;                            ///< of velocity by legs and accelerometer, along x and y
   std::array<Stance, kLegCount> stances_;  ///< while the robot walks
+  int walked_ = 0;                         ///< windows with joints
+  std::array<int, kLegCount> frozen_{};    ///< of them, in which the angles of a leg stood still
   std::array<SignalAgreement, kLegCount> slopes_;  ///< of the velocity by a foot, along z over x
 };
 

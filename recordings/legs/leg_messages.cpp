@@ -169,7 +169,10 @@ std::optional<FootLoads> loads_at(const MessageView& message, const ContactRule&
 
 std::optional<FootLoads> forces_at(const MessageView& message, const ContactRule& rule) {
   if (!message.texts("foot")) return std::nullopt;
-  return loads_at(message, {"force", {}, rule.foot_names});
+  auto forces = loads_at(message, {"force", {}, rule.foot_names});
+  if (!forces) return std::nullopt;
+  for (std::size_t leg = 0; leg < forces->size(); ++leg) (*forces)[leg] *= rule.force_signs[leg];
+  return forces;
 }
 
 std::optional<FeetReading> feet_at(const MessageView& message, Time record_time,

@@ -45,6 +45,7 @@ struct ContactRule {
   std::vector<std::string> foot_names;
   const StateLayout* state = nullptr;  ///< of the message's type, if `field` is its contacts
   const StateLayout* knees = nullptr;  ///< likewise, if `field` has a number for each of its joints
+  FootLoads force_signs = {1.0, 1.0, 1.0, 1.0};  ///< -1: of a foot whose forces are reversed
 };
 
 /// How joints are read.

@@ -50,7 +50,8 @@ void UpDirection::add(const ImuSample& sample) {
 
 LegStream::LegStream(const LegStreamConfig& config)
     : config_(config),
-      check_(config.source == LegSource::kKinematics ? config.geometry : LegGeometry()) {}
+      check_(config.source == LegSource::kKinematics ? config.geometry : LegGeometry(),
+             config.without_contacts) {}
 
 void LegStream::add_imu(const ImuSample& sample) {
   if (!sample.angular_velocity.allFinite()) return;
@@ -286,9 +287,11 @@ std::optional<LegOdometrySample> LegStream::forward_kinematics(const WaitingJoin
                                : velocity_from_foot(leg, motion, config_.geometry));
   }
   if (disagree(velocities)) ++counts["feet_in_contact_disagree"];
+  check_.add_joints(joints.position);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& each : velocities) sum += each;
-  check_.add_feet(feet, sum / static_cast<double>(std::max<std::size_t>(1, feet.size())));
+  check_.add_feet(feet, sum / static_cast<double>(std::max<std::size_t>(1, feet.size())),
+                  joints.differenced);
   return finish(std::move(sample), sum, static_cast<int>(velocities.size()), counts);
 }
 

@@ -40,6 +40,7 @@ struct LegStreamConfig {
   Pose T_body_base;
   LegGeometry geometry;
   FootModel foot_model = FootModel::kPoint;
+  std::array<bool, kLegCount> without_contacts{};  ///< feet whose loads tell none, as is said
 };
 
 /// Converts the messages of a robot's legs to leg odometry samples. Messages come in the order of

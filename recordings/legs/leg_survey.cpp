@@ -83,6 +83,10 @@ std::string LegSurvey::lack_of_joints() const {
 
 /// What to do where joints have no contacts.
 std::string LegSurvey::lack_of_contacts() const {
+  if (!number_fields_.empty()) {
+    return fmt::format("{} has no field '{}': set recording.contacts_field to one of {}",
+                       topics_.contacts, contact_field_, number_fields_);
+  }
   const std::string torques =
       effort_messages_ == 0 || topics_.contacts == topics_.joint_states
           ? ""

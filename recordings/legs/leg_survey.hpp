@@ -125,9 +125,11 @@ class LegSurvey {
   double farthest_foot_ = 0.0;  ///< of the feet without joints [m]
   std::array<Eigen::Vector3d, kLegCount> sum_of_feet_ = {
       Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
-      Eigen::Vector3d::Zero()};         ///< of their places
-  std::vector<FootLoads> first_loads_;  ///< of the survey
-  std::vector<FootLoads> loads_;        ///< of the whole recording, where thresholds are learned
+      Eigen::Vector3d::Zero()};          ///< of their places
+  std::string number_fields_;            ///< of the contacts, where they lack the configured one
+  std::vector<FootLoads> first_loads_;   ///< of the survey
+  std::vector<FootLoads> first_forces_;  ///< likewise, beside flags of contact
+  std::vector<FootLoads> loads_;         ///< of the whole recording, where thresholds are learned
 };
 
 }  // namespace aims

@@ -22,6 +22,15 @@ bool are_same(const FootLoads& a, const FootLoads& b) {
   });
 }
 
+/// The fields of several numbers, by name.
+std::string number_fields_of(const MessageDecoder& decoder) {
+  std::vector<std::string> fields;
+  for (const MessageField& field : decoder.fields()) {
+    if (field.kind == FieldKind::kNumbers) fields.push_back(field.path);
+  }
+  return fmt::format("{}", fmt::join(fields, ", "));
+}
+
 /// The array of "array[].field"; the whole path without.
 std::string_view array_of(std::string_view path) { return path.substr(0, path.find("[]")); }
 
@@ -74,10 +83,14 @@ void LegSurvey::add_contacts(const MessageView& message, const std::string& type
     if (contact_state_ != nullptr) torque_field_ = torques_beside(message, *contact_state_);
   }
   const auto loads = loads_at(message, rule_of(0.0));
+  if (!loads && !config_.contacts_field.empty() && !numbers_at(message, contact_field_)) {
+    number_fields_ = number_fields_of(decoder);
+  }
   if (!loads) return;
   ++contact_messages_;
   if (!first_loads_.empty() && are_same(first_loads_.back(), *loads)) ++repeated_contacts_;
   first_loads_.push_back(*loads);
+  if (const auto forces = forces_at(message, rule_of(0.0))) first_forces_.push_back(*forces);
   feet_unnamed_ = feet_unnamed_ || !feet_are_named(message, rule_of(0.0));
   for (const double load : *loads) {
     if (std::isfinite(load)) largest_load_ = std::max(largest_load_, std::abs(load));
@@ -209,7 +222,13 @@ Result<ContactRule> LegSurvey::decide_contacts(ReadingNotes& notes) const {
   const std::string offset = rule ? "" : offset_text(ranges_of_loads());
   if (!offset.empty()) return failure(offset);
   if (!rule) return rule;
-  return with_signs(std::move(*rule), notes);
+  rule = with_signs(std::move(*rule), notes);
+  if (!rule) return rule;
+  const auto forces = load_ranges(first_forces_, config_.contact_threshold);
+  for (std::size_t leg = 0; leg < forces.size(); ++leg) {
+    rule->force_signs[leg] = forces[leg].sign == LoadSign::kNegative ? -1.0 : 1.0;
+  }
+  return rule;
 }
 
 bool LegSurvey::contacts_hold(ReadingNotes& notes) const {
@@ -229,6 +248,11 @@ bool LegSurvey::contacts_hold(ReadingNotes& notes) const {
 Result<ContactRule> LegSurvey::rule_of_loads(ReadingNotes& notes) const {
   ContactRule rule = rule_of(config_.contact_threshold);
   if (topics_.contacts.empty()) return rule;
+  if (!number_fields_.empty()) {
+    notes.push_back(fmt::format("{}: no field '{}' (contacts_field), but {}", topics_.contacts,
+                                contact_field_, number_fields_));
+    return rule;
+  }
   if (contact_messages_ == 0) {
     notes.push_back(fmt::format(
         "{}: field '{}' does not name four feet: no contacts (contacts_field, foot_names)",

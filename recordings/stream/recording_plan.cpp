@@ -312,6 +312,7 @@ Result<RecordingPlan> plan_recording(MessageSource& bag, const RecordingConfig& 
   auto plan = survey.decide(bag.name(), std::move(notes));
   if (!plan) return plan;
   plan->start = survey.start(bag.summary());
+  plan->record_rate = survey.record_rate();
   warn_of_recorders(bag.summary(), plan->setup.warnings);
   warn_of_packets(bag.summary(), plan->setup.warnings);
   warn_of_rows(bag.summary(), plan->setup.warnings);

@@ -25,11 +25,12 @@ struct RecordingPlan {
   LegStreamConfig legs;
   JointRule joints;
   ContactRule contacts;
-  Pose T_truth_body;             ///< body pose in the frame of the truth
-  bool truth_is_of_body = true;  ///< then its poses are used unchanged
-  Duration arrival_shift = 0;    ///< added to record times
-  Time start = 0;                ///< earliest record time that was set
-  std::optional<Time> begin;     ///< record time before which there is an IMU alone: left out
+  Pose T_truth_body;                  ///< body pose in the frame of the truth
+  bool truth_is_of_body = true;       ///< then its poses are used unchanged
+  Duration arrival_shift = 0;         ///< added to record times
+  std::optional<double> record_rate;  ///< at which they run faster than the stamps
+  Time start = 0;                     ///< earliest record time that was set
+  std::optional<Time> begin;          ///< record time before which there is an IMU alone: left out
   std::array<std::optional<Duration>, kRoleCount> latency;  ///< record time minus stamp, typically
   /// The stamps leap though the record times do not: they say nothing of when a message arrived.
   std::array<bool, kRoleCount> leaps{};

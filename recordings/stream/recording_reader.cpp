@@ -12,7 +12,9 @@
 #include "core/text.hpp"
 #include "recordings/legs/leg_stream.hpp"
 #include "recordings/source/decided_start.hpp"
+#include "recordings/source/rated_source.hpp"
 #include "recordings/source/recording_file.hpp"
+#include "recordings/stream/latency_trend.hpp"
 #include "recordings/stream/record_clock.hpp"
 #include "recordings/stream/recording_plan.hpp"
 #include "recordings/stream/repeated_samples.hpp"
@@ -93,7 +95,10 @@ struct RecordingReader::Impl {
   Duration period_of(Role role) const;
   void warn_of_missing(Role role);
   void find_leap(const BagMessage& message, const Channel& channel, const MessageView& view);
+  void note_latency(const BagMessage& message, const Channel& channel, const MessageView& view);
   void warn_of_leaps();
+  void warn_of_imu_leap();
+  void warn_of_rates();
   void finish(std::vector<Delivery>& out);
 
   std::unique_ptr<MessageSource> bag;
@@ -116,6 +121,7 @@ struct RecordingReader::Impl {
   std::array<std::optional<Time>, kRoleCount> last_stamps;
   std::array<std::string, kRoleCount> frames;  ///< of the first messages
   std::array<MissingMessages, kRoleCount> missing;
+  std::array<LatencyTrend, kRoleCount> trends;
   SteadyTopic steady_imu;
   std::array<StampLeaps, kRoleCount> leaps;
   std::optional<Duration> leapt;  ///< by which the stamp of the current message is wrong
@@ -407,6 +413,7 @@ void RecordingReader::Impl::receive(const BagMessage& given, std::vector<Deliver
     record_time = last;
     return;
   }
+  if (view && !unset) note_latency(message, *channel, *view);
   if (view && !unset) find_leap(message, *channel, *view);
   if (view && !unset) message.record_time = arrival(message, *channel, *view);
   release(message.record_time, out);
@@ -426,9 +433,17 @@ void RecordingReader::Impl::receive(const BagMessage& given, std::vector<Deliver
   if (!hold(message, *channel, *view)) take(*channel, *view, out);
 }
 
+void RecordingReader::Impl::note_latency(const BagMessage& message, const Channel& channel,
+                                         const MessageView& view) {
+  const auto role = first_role(channel);
+  const auto stamp = view.time("header.stamp");
+  if (!role || !stamp || plan.stamped_by_record[*role] || plan.leaps[*role]) return;
+  trends[*role].add(message.record_time, message.record_time - *stamp);
+}
+
 /// Of the messages of a sensor; 0: not known.
 Duration RecordingReader::Impl::period_of(Role role) const {
-  if (role == Role::kLidar) return plan.cloud.scan_period();
+  if (role == Role::kLidar) return plan.cloud.spacing * plan.cloud.parts.count;
   const auto& rate = role == Role::kImu ? plan.setup.imu_rate_hz : plan.setup.leg_rate_hz;
   return rate && *rate > 0.0 ? from_seconds(1.0 / *rate) : 0;
 }
@@ -461,10 +476,40 @@ void RecordingReader::Impl::warn_of_leaps() {
   }
 }
 
+/// Warns of stamps of the IMU that leap while those of the LiDAR go on; the recorder is not to
+/// blame.
+void RecordingReader::Impl::warn_of_imu_leap() {
+  constexpr auto kImu = static_cast<std::size_t>(Role::kImu);
+  constexpr auto kLidar = static_cast<std::size_t>(Role::kLidar);
+  if (steady_imu.was_always_steady() || leaps[kLidar].count() > 0) return;
+  const auto step = trends[kImu].step(trends[kLidar]);
+  if (!step || std::abs(*step) < SteadyTopic::kUsual) return;
+  counts.erase("recorded_before_their_stamp");
+  counts.erase("recorded_long_after_their_stamp");
+  const TopicsConfig& topics = plan.setup.topics;
+  plan.setup.warnings.push_back(warning_of_imu_leap(topics.imu, topics.lidar, -*step));
+}
+
+/// Warns of clocks that run at different rates.
+void RecordingReader::Impl::warn_of_rates() {
+  constexpr auto kImu = static_cast<std::size_t>(Role::kImu);
+  const std::string& imu = plan.setup.topics.imu;
+  for (const Role role : {Role::kLidar, Role::kLegs, Role::kJoints}) {
+    const auto index = static_cast<std::size_t>(role);
+    const auto growth = trends[kImu].growth(trends[index]);
+    const std::string& topic = topic_of(plan.setup.topics, role);
+    if (!growth || topic.empty() || topic == imu) continue;
+    plan.setup.warnings.push_back(warning_of_rates(imu, topic, *growth));
+    return;
+  }
+}
+
 /// What the whole recording tells.
 void RecordingReader::Impl::finish(std::vector<Delivery>& out) {
   release(std::numeric_limits<Time>::max(), out);
   warn_of_leaps();
+  warn_of_imu_leap();
+  warn_of_rates();
   warn_of_missing(Role::kImu);
   warn_of_missing(Role::kLidar);
   warn_of_missing(Role::kLegs);
@@ -479,11 +524,16 @@ Result<RecordingReader> RecordingReader::open(const std::filesystem::path& file,
   options.as_live = config.as_live;
   auto source = open_sensor_recording(file, options, config.topics.lidar == "none");
   if (!source) return tl::unexpected(source.error());
-  return open(std::move(*source), config);
+  return open_source(std::move(*source), config, true);
 }
 
-Result<RecordingReader> RecordingReader::open(std::unique_ptr<MessageSource> bag,
+Result<RecordingReader> RecordingReader::open(std::unique_ptr<MessageSource> source,
                                               const RecordingConfig& config) {
+  return open_source(std::move(source), config, false);
+}
+
+Result<RecordingReader> RecordingReader::open_source(std::unique_ptr<MessageSource> bag,
+                                                     const RecordingConfig& config, bool recorded) {
   const std::filesystem::path name = bag->name();
   std::vector<std::string> notes;
   const auto topics = choose_topics(name, bag->connections(), config.topics, notes);
@@ -501,8 +551,14 @@ Result<RecordingReader> RecordingReader::open(std::unique_ptr<MessageSource> bag
           "what the live estimate heard long before it could start is left out (as_live)");
     }
   }
-  auto plan = plan_recording(as_live ? start : *bag, config, *topics, *channels, std::move(notes));
+  auto plan = plan_recording(as_live ? start : *bag, config, *topics, *channels, notes);
   if (!plan) return tl::unexpected(plan.error());
+  if (const auto rate = recorded && !as_live ? plan->record_rate : std::nullopt) {
+    bag = std::make_unique<RatedSource>(std::move(bag), *rate);
+    plan = plan_recording(*bag, config, *topics, *channels, std::move(notes));
+    if (!plan) return tl::unexpected(plan.error());
+    plan->setup.warnings.push_back(warning_of_record_rate(*rate));
+  }
   bag->select(channels->topics());
   bag->rewind();
   return RecordingReader(

@@ -79,6 +79,9 @@ class RecordingReader {
  private:
   struct Impl;
   explicit RecordingReader(std::unique_ptr<Impl> impl);
+  /// `recorded`: not live; record times may run at another rate than the stamps.
+  static Result<RecordingReader> open_source(std::unique_ptr<MessageSource> bag,
+                                             const RecordingConfig& config, bool recorded);
   std::unique_ptr<Impl> impl_;
 };
 

@@ -173,6 +173,9 @@ void RecordingSurvey::decide_legs(RecordingPlan& plan) {
   plan.contacts =
       contacts ? std::move(*contacts) : legs_.without_contacts(contacts.error().message, notes_);
   LegStreamConfig& stream = plan.legs;
+  for (std::size_t leg = 0; leg < stream.without_contacts.size(); ++leg) {
+    stream.without_contacts[leg] = std::isinf(plan.contacts.thresholds[leg].begin);
+  }
   stream.geometry = config_.leg_geometry;
   stream.foot_model = config_.foot_model;
   stream.source = legs_.decide_source(legs.type, legs.frame, notes_);

@@ -43,6 +43,10 @@ class RecordingSurvey {
   /// Whether there are enough messages of that topic.
   bool enough(const std::string& topic) const;
 
+  /// By how much faster record times run than the stamps of all topics, as of a recording that was
+  /// played at another speed and recorded again; nothing where they do not differ.
+  std::optional<double> record_rate() const;
+
   /// The earliest record time, without those that were never set.
   Time start(const BagSummary& summary) const;
 
@@ -95,6 +99,11 @@ class RecordingSurvey {
   void note_record_times(Role role, const std::string& topic);
   void decide_repeats(RecordingPlan& plan);
   void decide_stamps(RecordingPlan& plan);
+  static std::optional<double> record_rate_of(const Seen& each);
+  static std::optional<Duration> latency_without_scan(Role role, const RecordingPlan& plan);
+  std::optional<Duration> corrected_latency(Role role, const RecordingPlan& plan) const;
+  std::optional<std::array<double, kRoleCount>> corrected_latencies(
+      const RecordingPlan& plan) const;
   void decide_waits(RecordingPlan& plan) const;
   void decide_begin(RecordingPlan& plan);
   std::map<Role, Duration> behind(const RecordingPlan& plan, const std::string& reference,

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace aims {
 namespace {
 
@@ -31,6 +33,31 @@ ReadingWarning warning_of_missing(Role role, const std::string& topic, double mi
                       "({:.1f} %): the network, the recorder or the driver lost them",
                       topic, missing, all, 1e2 * missing / all),
           sensor};
+}
+
+ReadingWarning warning_of_imu_leap(const std::string& imu, const std::string& lidar,
+                                   Duration leap) {
+  return {
+      fmt::format("stamps of {} leap", imu),
+      fmt::format("{}: stamps leap by {:.3f} s, while record times and the stamps of {} do not: "
+                  "what is before and behind it does not fit together",
+                  imu, to_seconds(leap), lidar)};
+}
+
+ReadingWarning warning_of_rates(const std::string& topic, const std::string& other, double growth) {
+  return {
+      fmt::format("clocks of {} and {} run at different rates", topic, other),
+      fmt::format("{}: by the record times its stamps run {:.3g} % {} than those of {}: no delay "
+                  "corrects it; synchronise the clocks, or have the drivers stamp by one",
+                  topic, 1e2 * std::abs(growth), growth < 0.0 ? "faster" : "slower", other)};
+}
+
+ReadingWarning warning_of_record_rate(double rate) {
+  return {"record times run at another rate than the stamps",
+          fmt::format("record times run {:.3g} times as fast as the stamps, which agree: was the "
+                      "recording played at {:.3g} times its speed and recorded again? Arrivals are "
+                      "taken at the rate of the stamps",
+                      rate, 1.0 / rate)};
 }
 
 ReadingWarning warning_of_leaps(Role role, const std::string& topic, const StampLeaps& leaps,

@@ -19,6 +19,15 @@ std::optional<double> many_missing(Role role, const MissingMessages& messages, i
 ReadingWarning warning_of_missing(Role role, const std::string& topic, double missing,
                                   const MissingMessages& messages);
 
+/// `leap`: of the stamps of the IMU.
+ReadingWarning warning_of_imu_leap(const std::string& imu, const std::string& lidar, Duration leap);
+
+/// `growth`: of the latency of one topic against that of the other [s/s].
+ReadingWarning warning_of_rates(const std::string& topic, const std::string& other, double growth);
+
+/// `rate`: at which record times run faster than the stamps.
+ReadingWarning warning_of_record_rate(double rate);
+
 /// `start`: record time of the first message.
 ReadingWarning warning_of_leaps(Role role, const std::string& topic, const StampLeaps& leaps,
                                 Time start);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <ranges>
 #include <set>
 #include <span>
 #include <utility>
@@ -87,6 +88,92 @@ double delay_of(const RecordingConfig& config, Role role) {
   return role == Role::kImu ? config.imu_delay : config.leg_delay;
 }
 
+/// Record time minus stamp of a role that measures, without the time in which a scan is taken.
+std::optional<Duration> RecordingSurvey::latency_without_scan(Role role,
+                                                              const RecordingPlan& plan) {
+  auto latency = plan.latency[static_cast<std::size_t>(role)];
+  // A cloud with the stamp of its start is complete, and sent, a period later.
+  if (latency && role == Role::kLidar && plan.cloud.stamp == CloudStamp::kStart) {
+    *latency -= plan.cloud.period;
+  }
+  return latency;
+}
+
+/// By how much faster record times run than the stamps, where latencies grow evenly; nothing where
+/// they do not, and of few messages.
+std::optional<double> RecordingSurvey::record_rate_of(const Seen& each) {
+  constexpr std::size_t kLeast = 10;  // messages of each third
+  const std::size_t third = each.stamps.size() / 3;
+  if (each.unstamped || third < kLeast || stamps_stand(each.stamps)) return std::nullopt;
+  std::array<Duration, 3> latency{}, stamp{};
+  for (std::size_t i = 0; i < latency.size(); ++i) {
+    const auto part = [&](const std::vector<std::int64_t>& all) {
+      const auto begin = all.begin() + static_cast<std::ptrdiff_t>(i * third);
+      return *upper_median(
+          std::vector<std::int64_t>(begin, begin + static_cast<std::ptrdiff_t>(third)));
+    };
+    latency[i] = part(each.latencies);
+    stamp[i] = part(each.stamps);
+  }
+  const Duration growth = latency[2] - latency[0], span = stamp[2] - stamp[0];
+  const Duration uneven = std::abs(latency[2] - 2 * latency[1] + latency[0]);
+  if (span <= 0 || std::abs(growth) < kMaxLatencyDifference || 4 * uneven > std::abs(growth)) {
+    return std::nullopt;
+  }
+  const double rate = 1.0 + static_cast<double>(growth) / static_cast<double>(span);
+  return rate > 0.0 ? std::optional(rate) : std::nullopt;
+}
+
+std::optional<double> RecordingSurvey::record_rate() const {
+  std::map<std::string, double> rates;  // by topic
+  const Seen* densest = nullptr;
+  std::optional<double> best;
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    const std::string& topic = topic_of(topics_, static_cast<Role>(i));
+    if (topic.empty() || seen_[i].stamps.empty()) continue;
+    const auto rate = record_rate_of(seen_[i]);
+    if (!rate) return std::nullopt;
+    rates[topic] = *rate;
+    if (densest != nullptr && densest->stamps.size() >= seen_[i].stamps.size()) continue;
+    densest = &seen_[i];
+    best = rate;
+  }
+  const bool agree = std::ranges::all_of(rates | std::views::values, [&best](double each) {
+    return 4.0 * std::abs(each - *best) < std::abs(*best - 1.0);
+  });
+  return rates.size() > 1 && agree ? best : std::nullopt;
+}
+
+/// Record time minus the stamp that the configured delay corrects.
+std::optional<Duration> RecordingSurvey::corrected_latency(Role role,
+                                                           const RecordingPlan& plan) const {
+  const auto& latency = plan.latency[static_cast<std::size_t>(role)];
+  return latency ? std::optional(*latency + from_seconds(delay_of(config_, role))) : std::nullopt;
+}
+
+/// Record time minus corrected stamp by role [s], where the record times show that clocks differ:
+/// then delays correct clocks, and messages arrive when they are recorded. Roles that do not tell
+/// have the largest.
+std::optional<std::array<double, kRoleCount>> RecordingSurvey::corrected_latencies(
+    const RecordingPlan& plan) const {
+  std::map<std::size_t, double> corrected;
+  std::vector<Duration> latencies;
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    const Role role = static_cast<Role>(i);
+    const auto latency = latency_without_scan(role, plan);
+    if (!latency || role == Role::kTruth || plan.leaps[i]) continue;
+    latencies.push_back(*latency);
+    corrected[i] = to_seconds(*latency) + delay_of(config_, role);
+  }
+  if (latencies.empty()) return std::nullopt;
+  const auto [least, most] = std::ranges::minmax(latencies);
+  if (most - least < kMaxLatencyDifference) return std::nullopt;
+  std::array<double, kRoleCount> all{};
+  all.fill(std::ranges::max(corrected | std::views::values));
+  for (const auto& [role, latency] : corrected) all[role] = latency;
+  return all;
+}
+
 /// Messages with smaller delays wait for those with the largest, which then arrive earlier.
 void RecordingSurvey::decide_waits(RecordingPlan& plan) const {
   std::array<double, kRoleCount> delays{};
@@ -101,9 +188,14 @@ void RecordingSurvey::decide_waits(RecordingPlan& plan) const {
     largest = any ? std::max(largest, delays[i]) : delays[i];
     any = true;
   }
+  const auto corrected = largest > smallest ? corrected_latencies(plan) : std::nullopt;
   // Joints wait for contacts that arrive later, and all others with them.
   const double late = to_seconds(contact_lateness(plan));
-  if (late > kSortedDelay) {
+  if (corrected) {
+    delays = *corrected;
+    smallest = std::ranges::min(delays);
+    largest = std::ranges::max(delays);
+  } else if (late > kSortedDelay) {
     delays[static_cast<std::size_t>(Role::kContacts)] += late;
     largest = std::max(largest, delays[static_cast<std::size_t>(Role::kContacts)]);
   }
@@ -386,11 +478,12 @@ void RecordingSurvey::warn_of_true_clock(const RecordingPlan& plan) {
   constexpr Duration kMost = kSecond;  // of a motion capture's computers and links
   const auto& truth = plan.latency[static_cast<std::size_t>(Role::kTruth)];
   const auto& imu = plan.latency[static_cast<std::size_t>(Role::kImu)];
-  const auto& sensors = imu ? imu : plan.latency[static_cast<std::size_t>(Role::kLidar)];
+  const Role reference = imu ? Role::kImu : Role::kLidar;
+  const auto sensors = corrected_latency(reference, plan);
   if (!truth || !sensors || std::abs(*truth - *sensors) < kMost) return;
   const double ahead = to_seconds(*sensors - *truth);
   const std::string& other = imu ? topics_.imu : topics_.lidar;
-  const auto& lidar = plan.latency[static_cast<std::size_t>(Role::kLidar)];
+  const auto lidar = corrected_latency(Role::kLidar, plan);
   const bool imu_alone = imu && lidar && std::abs(*truth - *lidar) < kMost;
   const std::string remedy =
       imu_alone ? fmt::format("the LiDAR agrees with the truth: set recording.imu_delay={:.3f}",
@@ -413,12 +506,10 @@ std::map<Role, Duration> RecordingSurvey::behind(const RecordingPlan& plan,
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     const Role role = static_cast<Role>(i);
     const std::string& topic = topic_of(topics_, role);
-    if (!plan.latency[i] || role == Role::kTruth || topic == reference) continue;
+    const auto own = latency_without_scan(role, plan);
+    if (!own || role == Role::kTruth || topic == reference) continue;
     if (plan.leaps[i]) continue;  // no delay would correct it
-    Duration behind = *plan.latency[i] + from_seconds(delay_of(config_, role)) - latency;
-    // A cloud with the stamp of its start is complete, and sent, a period later.
-    if (role == Role::kLidar && plan.cloud.stamp == CloudStamp::kStart) behind -= plan.cloud.period;
-    result[role] = behind;
+    result[role] = *own + from_seconds(delay_of(config_, role)) - latency;
   }
   return result;
 }

@@ -175,6 +175,65 @@ TEST_F(CloudTimes, ACloudThatArrivesBeforeItsPointsFireIsStampedAtItsEnd) {
   EXPECT_EQ(test::scans_of(read.deliveries)[2]->stamp, kStart + 100 * kMillisecond);
 }
 
+/// What a LiDAR sees of its turns, and how.
+struct Turns {
+  double from = 0.0, to = 1.0;  ///< the part that it sees
+  double scale = 1.0;           ///< of the point times
+  int kept = 1;                 ///< one of so many clouds
+  int lost = 0;                 ///< one of so many of the kept; 0: none
+};
+
+/// Forty clouds of a LiDAR of 10 Hz.
+Recording read_turns(const std::filesystem::path& bag, const Turns& turns) {
+  std::filesystem::remove(bag);
+  RobotRecording robot(bag);
+  robot.add_transforms(kMounted);
+  robot.add_imu(kStart, 60 * turns.kept * 4);
+  for (int k = 0; k < 40 * turns.kept; ++k) {
+    if (k % turns.kept != 0) continue;
+    if (turns.lost > 0 && k / turns.kept % turns.lost == 1) continue;
+    std::vector<std::array<float, 4>> points;
+    for (int i = 0; i < 200; ++i) {
+      const double turned = turns.from + (turns.to - turns.from) * i / 200.0;
+      const double azimuth = 2.0 * std::numbers::pi * turned;
+      points.push_back({static_cast<float>(5.0 * std::cos(azimuth)),
+                        static_cast<float>(5.0 * std::sin(azimuth)), 0.0F,
+                        static_cast<float>(0.1 * turns.scale * turned)});
+    }
+    const Time stamp = kStart + k * 100 * kMillisecond;
+    robot.add_cloud(RawCloud::of(stamp, points), stamp + 105 * kMillisecond);
+  }
+  robot.close();
+  return test::read_recording(bag);
+}
+
+TEST_F(CloudTimes, ALidarThatIsBlindBehindMissesNoClouds) {
+  for (const auto& [from, to] : {std::pair(0.0, 0.5), {0.25, 0.6}, {0.1, 0.7}, {0.0, 1.0}}) {
+    const Recording whole = read_turns(bag(), {.from = from, .to = to});
+    EXPECT_FALSE(whole.noted("are missing") || whole.noted(" spans ")) << from;
+    const Recording lossy = read_turns(bag(), {.from = from, .to = to, .lost = 4});
+    EXPECT_TRUE(lossy.noted("/points: 10 of 40 messages are missing")) << from;
+    EXPECT_FALSE(lossy.noted(" spans ")) << from;
+  }
+}
+
+TEST_F(CloudTimes, PointTimesOfAnotherScaleAreNamed) {
+  const Recording twice = read_turns(bag(), {.scale = 2.0});
+  EXPECT_TRUE(twice.noted("'time' spans 0.199 s, but a cloud comes every 0.1 s"));
+  for (const double scale : {0.5, 0.1}) {
+    const Recording less = read_turns(bag(), {.scale = scale});
+    EXPECT_TRUE(less.noted(", but clouds come every 0.1 s: were those between them left out"));
+    EXPECT_FALSE(less.noted("are missing")) << scale;
+  }
+}
+
+TEST_F(CloudTimes, CloudsThatAreLeftOutOnPurposeAreNotLost) {
+  const Recording fewer = read_turns(bag(), {.kept = 2});
+  EXPECT_TRUE(fewer.noted("spans 0.0995 s, but clouds come every 0.2 s"));
+  EXPECT_FALSE(fewer.noted("are missing"));
+  EXPECT_EQ(test::scans_of(fewer.deliveries)[1]->end, kStart + 300 * kMillisecond);
+}
+
 TEST_F(CloudTimes, ARingThatIsTheSameForAllPointsIsDerivedFromElevation) {
   RobotRecording robot(bag());
   robot.add_transforms(kMounted);

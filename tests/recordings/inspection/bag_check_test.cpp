@@ -122,6 +122,13 @@ TEST(BagCheck, AtFiftyHertzTheImuIsPoor) {
   EXPECT_EQ(worst(bag, "aims"), Fulfilment::kMet);
 }
 
+TEST(BagCheck, AnImuThatSendsEachSampleAgainIsAsFastAsItsNewOnes) {
+  BagInfo bag = good_bag();
+  bag.imus[0].new_rate_hz = 50.0;
+  EXPECT_EQ(worst(bag, "LIO-SAM"), Fulfilment::kPoor);
+  EXPECT_EQ(bag_warnings(bag).size(), 1U) << "sent several times";
+}
+
 TEST(BagCheck, LioSamRequiresDenseClouds) {
   BagInfo bag = good_bag();
   bag.clouds[0].not_finite_fraction = 0.2;
@@ -155,6 +162,14 @@ RequirementCheck check_of(const BagInfo& bag, const std::string& system,
     if (each.system == system && each.requirement == requirement) return each;
   }
   return {};
+}
+
+TEST(BagCheck, LegsThatEstimatesDoNotReadAreMissing) {
+  BagInfo bag = good_bag();
+  EXPECT_EQ(worst(bag, "aims_d"), Fulfilment::kMet);
+  bag.leg_lack = "no threshold of contact can be learned";
+  EXPECT_EQ(worst(bag, "aims_d"), Fulfilment::kMissing);
+  EXPECT_EQ(check_of(bag, "aims_d", "leg odometry").found, bag.leg_lack);
 }
 
 TEST(BagCheck, WithoutCloudsThoseWithLegsSayHowTheyRun) {

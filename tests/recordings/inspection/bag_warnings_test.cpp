@@ -47,6 +47,21 @@ TEST(BagWarnings, TheAdvisedDelayIsTheDifferenceFromTheImu) {
   EXPECT_EQ(advices(recording(0.0, -3.0, 0.0), "recording.lidar_delay=3.000"), 1U);
 }
 
+TEST(BagWarnings, WhatReadingSaysOfAClockIsNotContradicted) {
+  BagInfo info = recording(10.0, 0.1, 0.0);
+  info.topics[2].clock = ClockOffset{-0.478, 0.72};  // an alias of the gait
+  info.topics[0].repeated = 9;
+  EXPECT_EQ(advices(info, "set recording.lidar_delay=9.900"), 1U);
+  EXPECT_EQ(advices(info, "set recording.leg_delay=10.000"), 1U);
+  EXPECT_EQ(advices(info, "set recording.leg_delay=-0.4780"), 1U);
+  info.notes = {
+      "/imu: stamps are 10.001 s behind those of /odom, /points, which agree: set "
+      "recording.imu_delay=-10.001 if its clock differs"};
+  EXPECT_EQ(advices(info, "_delay="), 0U);
+  info.notes = {"/imu: stamps do not advance from message to message: record times are used"};
+  EXPECT_EQ(advices(info, "such messages are dropped"), 0U);
+}
+
 TEST(BagWarnings, WithoutAnImuRecordTimesAreTheReference) {
   BagInfo info = recording(0.0, 0.0, 7.0);
   info.used = {};

@@ -14,10 +14,17 @@ namespace {
 
 constexpr LegGeometry kLegs = {0.188, 0.047, 0.08, 0.213, 0.213, 0.022};
 
+/// Of walks on FL and RR alone.
+constexpr std::array<bool, kLegCount> kDiagonalAlone = {false, true, true, false};
+
 /// What a robot of which something is wrong records.
 struct Fault {
   std::function<void(StandingFoot&)> of_foot = [](StandingFoot&) {};
   std::function<void(ImuSample&)> of_imu = [](ImuSample&) {};
+  std::optional<int> idle = std::nullopt;    ///< a foot that never stands
+  std::optional<int> frozen = std::nullopt;  ///< a leg whose angles stand still
+  bool differenced = false;
+  std::array<bool, kLegCount> without_contacts{};
 };
 
 /// Warnings of a robot that walks to and fro and turns, 30 s at 100 Hz, on two feet at a time, with
@@ -25,7 +32,7 @@ struct Fault {
 std::vector<ReadingWarning> warnings_of(const Fault& fault) {
   std::mt19937 random(7);
   std::normal_distribution<double> noise(0.0, 0.2);
-  LegCheck check(kLegs);
+  LegCheck check(kLegs, fault.without_contacts);
   for (int i = 0; i < 3000; ++i) {
     const double time = 0.01 * i;
     const Eigen::Vector3d velocity(0.5 * std::sin(time), 0.3 * std::sin(1.3 * time), 0.0);
@@ -41,6 +48,7 @@ std::vector<ReadingWarning> warnings_of(const Fault& fault) {
     Eigen::Vector3d stated = Eigen::Vector3d::Zero();
     const bool first = std::fmod(time, 0.5) < 0.25;
     for (const int leg : first ? std::array{0, 3} : std::array{1, 2}) {
+      if (leg == fault.idle) continue;
       const Eigen::Vector3d place = foot_in_base(leg, {0.0, 0.8, -1.6}, kLegs);
       const Eigen::Vector3d slip(noise(random), noise(random), noise(random));
       StandingFoot foot = {leg, place, slip - velocity - turning.cross(place)};
@@ -48,7 +56,11 @@ std::vector<ReadingWarning> warnings_of(const Fault& fault) {
       feet.push_back(foot);
       stated -= 0.5 * (foot.velocity + imu.angular_velocity.cross(foot.position));
     }
-    check.add_feet(feet, stated);
+    std::array<double, kJointCount> angles{};
+    for (int k = 0; k < kJointCount; ++k)
+      angles[static_cast<std::size_t>(k)] = k / 3 == fault.frozen ? 0.8 : time;
+    check.add_joints(angles);
+    check.add_feet(feet, stated, fault.differenced);
   }
   return check.warnings();
 }
@@ -94,6 +106,19 @@ TEST(LegCheck, ZerosOfJointsThatAreOffByAThirdOfARadianAreNamed) {
   EXPECT_EQ(text_of(warnings_of(zeros({0.03, -0.05, 0.05}))), "");
 }
 
+TEST(LegCheck, AFootThatNeverStandsAndALegWhoseAnglesStandStillAreNamed) {
+  expect_named({.idle = 2}, "no contact of RL while the robot walks");
+  EXPECT_EQ(text_of(warnings_of({.idle = 2, .without_contacts = {false, false, true, false}})), "")
+      << "said before";
+  expect_named({.frozen = 1}, "the joint angles of FR do not change while the robot walks");
+}
+
+TEST(LegCheck, DifferencesOfAnglesTellNoSlope) {
+  Fault fault = zeros({0.0, 0.35, 0.0}, 2);
+  fault.differenced = true;
+  EXPECT_EQ(text_of(warnings_of(fault)), "");
+}
+
 TEST(LegCheck, ExchangedLegsAreNamed) {
   const auto left_right = [](StandingFoot& foot) { foot.position.y() *= -1.0; };
   const auto front_rear = [](StandingFoot& foot) { foot.position.x() *= -1.0; };
@@ -121,7 +146,7 @@ TEST(LegCheck, AnAccelerometerThatTheLegsContradictIsNamed) {
 /// Of a robot that walks straight ahead and rolls by 1.5 degrees to and fro; `sign`: of y of its
 /// accelerometer.
 std::string warnings_of_rolling_walk(double sign) {
-  LegCheck check(kLegs);
+  LegCheck check(kLegs, kDiagonalAlone);
   for (int i = 0; i < 3000; ++i) {
     const double phase = 0.01 * i;  // [s]
     const double roll = 0.026 * std::sin(2.0 * phase), rate = 0.052 * std::cos(2.0 * phase);
@@ -150,7 +175,7 @@ TEST(LegCheck, AnAxisOfTheAccelerometerWithTheWrongSignIsNamedInAStraightWalk) {
 /// Of a robot that stands, walks straight ahead for some 11 s and stands, by a foot in front
 /// and one behind; `sign`: of what the feet do.
 std::vector<ReadingWarning> warnings_of_straight_walk(double sign) {
-  LegCheck check(kLegs);
+  LegCheck check(kLegs, kDiagonalAlone);
   for (int i = 0; i < 1500; ++i) {
     const double phase = 0.01 * i;  // [s]
     const double speed = 0.5 * std::clamp(std::min(phase - 2.0, 14.0 - phase), 0.0, 1.0);

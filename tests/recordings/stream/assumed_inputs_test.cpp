@@ -188,6 +188,108 @@ TEST_F(AssumedInputs, OfTruthAndImuTheOneIsNamedThatTheRecordTimesContradict) {
   EXPECT_FALSE(warns(setup, "--time-offset"));
 }
 
+TEST_F(AssumedInputs, ADelayThatCorrectsAClockHoldsNoMessageUpAndEndsTheWarning) {
+  for (const double off : {0.3, 0.5, 0.8, 1.3, 4.0, 20.0}) {
+    std::filesystem::remove(bag());
+    RobotRecording robot(bag());
+    robot.add_transforms(kMounted);
+    robot.add_clouds(kStart, 20);
+    for (int k = 0; k < 150; ++k) {
+      const Time now = kStart + k * 20 * kMillisecond;
+      ImuSample sample;
+      sample.stamp = now - from_seconds(off);
+      sample.specific_force.z() = 9.81;
+      robot.add("/imu", imu_type(), now, imu_message({0, sample.stamp, "imu"}, sample));
+      robot.add("/ground_truth/imu", odometry_type(), now,
+                odometry_message({0, now, "world"}, "imu", {}));
+    }
+    robot.close();
+    EXPECT_FALSE(test::read_recording(bag(), {}).setup.warnings.empty()) << off;
+    RecordingConfig config;
+    config.imu_delay = -off;
+    const Recording read = test::read_recording(bag(), config);
+    EXPECT_TRUE(read.setup.warnings.empty()) << off << ": " << read.setup.warnings[0].text;
+    Time scan = 0;
+    for (const Delivery& each : read.deliveries) {
+      if (const auto* cloud = std::get_if<LidarScanPtr>(&each.measurement)) scan = (*cloud)->stamp;
+      const auto* imu = std::get_if<ImuSample>(&each.measurement);
+      if (imu != nullptr) ASSERT_GE(imu->stamp, scan) << off << ": behind its scan";
+    }
+  }
+}
+
+TEST_F(AssumedInputs, RecordTimesOfARecordingPlayedAtAnotherSpeedFollowTheStamps) {
+  for (const double rate : {0.25, 0.5, 0.9, 1.0, 1.1, 2.0}) {
+    std::filesystem::remove(bag());
+    RobotRecording robot(bag());
+    robot.add_transforms(kMounted);
+    const auto recorded = [rate](Time now) {
+      return kStart + std::llround(rate * static_cast<double>(now - kStart));
+    };
+    for (int k = 0; k < 100; ++k) {
+      const Time stamp = kStart + k * 100 * kMillisecond;
+      robot.add_cloud(test::RawCloud::of(stamp, {{1, 2, 3, 0}, {1, 2, 3, 0.09F}}),
+                      recorded(stamp + 100 * kMillisecond));
+    }
+    for (int k = 0; k < 500; ++k) {
+      ImuSample sample;
+      sample.stamp = kStart + k * 20 * kMillisecond;
+      sample.specific_force.z() = 9.81;
+      robot.add("/imu", imu_type(), recorded(sample.stamp),
+                imu_message({0, sample.stamp, "imu"}, sample));
+    }
+    robot.close();
+    const Recording read = test::read_recording(bag(), {});
+    EXPECT_EQ(warns(read.setup, "times as fast as the stamps"), rate != 1.0) << rate;
+    EXPECT_FALSE(warns(read.setup, "if their clocks differ")) << rate;
+    EXPECT_FALSE(warns(read.setup, "cloud_stamp")) << rate;
+    for (const Delivery& each : read.deliveries) {
+      const Duration late = each.arrival - stamp_of(each.measurement);
+      ASSERT_LT(std::abs(late), kSecond / 5) << rate;
+    }
+  }
+}
+
+TEST_F(AssumedInputs, AClockThatRunsAtAnotherRateIsAWarning) {
+  for (const double rate : {0.99, 1.0, 1.01}) {
+    std::filesystem::remove(bag());
+    RobotRecording robot(bag());
+    robot.add_transforms(kMounted);
+    robot.add_clouds(kStart, 200);
+    for (int k = 0; k < 1000; ++k) {
+      const Duration passed = k * 20 * kMillisecond;
+      ImuSample sample;
+      sample.stamp = kStart + std::llround(rate * static_cast<double>(passed));
+      sample.specific_force.z() = 9.81;
+      robot.add("/imu", imu_type(), kStart + passed, imu_message({0, sample.stamp, "imu"}, sample));
+    }
+    robot.close();
+    const Recording read = test::read_recording(bag(), {});
+    EXPECT_EQ(warns(read.setup, "its stamps run 1 % faster than those of /points"), rate > 1.0);
+    EXPECT_EQ(warns(read.setup, "its stamps run 1 % slower than those of /points"), rate < 1.0);
+  }
+}
+
+TEST_F(AssumedInputs, StampsOfTheImuThatLeapLateAreNoMatterOfTheRecorder) {
+  for (const Duration leap : {Duration{0}, kSecond, -kSecond}) {
+    std::filesystem::remove(bag());
+    RobotRecording robot(bag());
+    robot.add_transforms(kMounted);
+    robot.add_clouds(kStart, 600);
+    for (int k = 0; k < 3000; ++k) {
+      const Time now = kStart + k * 20 * kMillisecond;
+      ImuSample sample;
+      sample.stamp = now + (k > 2500 ? leap : 0);
+      sample.specific_force.z() = 9.81;
+      robot.add("/imu", imu_type(), now, imu_message({0, sample.stamp, "imu"}, sample));
+    }
+    robot.close();
+    const Recording read = test::read_recording(bag(), {});
+    EXPECT_EQ(warns(read.setup, "/imu: stamps leap by "), leap != 0) << leap;
+    EXPECT_FALSE(read.counts.contains("recorded_before_their_stamp")) << leap;
+  }
+}
+
 TEST_F(AssumedInputs, FramesThatAreNoneOfASensorAreWarnings) {
   const auto setup_of = [this](const std::vector<FrameTransform>& frames, const std::string& topic,
                                const std::string& lidar) {

@@ -2,9 +2,13 @@
 // Contacts that are published only when they change.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
+#include "recordings/legs/leg_survey.hpp"
+#include "recordings/messages/message_encoding.hpp"
+#include "recordings/messages/message_types.hpp"
 #include "tests/recordings/stream/recorded_trot.hpp"
 
 namespace aims {
@@ -55,6 +59,52 @@ TEST_F(RecordedTrot, ContactsInFieldsThatNameTheFeetAreRead) {
 TEST_F(RecordedTrot, AFootThatDiesIsNotHeld) {
   const Recording dead = read({.single = "/{}/joint_states", .dies = 100});
   EXPECT_FALSE(dead.noted(kHeld));
+}
+
+/// What is decided of feet that step in turn with such a force.
+struct DecidedContacts {
+  ContactRule rule;
+  ReadingNotes notes;
+  FootLoads last{};  ///< forces, as read
+};
+
+DecidedContacts contacts_of(double force, const std::string& field) {
+  RecordingConfig config;
+  config.contacts_field = field;
+  TopicsConfig topics;
+  topics.contacts = "/foot_contacts";
+  LegSurvey survey(config, topics);
+  const MessageType type = foot_contacts_type();
+  const auto decoder = MessageDecoder::create(type.name, type.definition, {});
+  MessageBytes bytes;
+  for (int k = 0; k < 400; ++k) {
+    LegOdometrySample sample;
+    sample.contact_force.emplace();
+    for (std::size_t leg = 0; leg < sample.contact.size(); ++leg) {
+      sample.contact[leg] = (k / 20 + static_cast<int>(leg)) % 2 == 0;
+      (*sample.contact_force)[leg] = sample.contact[leg] ? force : 0.0;
+    }
+    bytes = foot_contacts_message({0, k * 20 * kMillisecond, "base"}, sample);
+    survey.add_contacts(*decoder->decode(bytes.view()), type.name, *decoder, nullptr);
+  }
+  DecidedContacts decided;
+  decided.rule = survey.decide_contacts(decided.notes).value();
+  decided.last = forces_at(*decoder->decode(bytes.view()), decided.rule).value_or(FootLoads{});
+  return decided;
+}
+
+TEST(ContactForces, OfTheReversedSignAreReadByTheirMagnitude) {
+  for (const char* field : {"force", "contact"}) {
+    EXPECT_EQ(contacts_of(-80.0, field).last, contacts_of(80.0, field).last) << field;
+    EXPECT_EQ(std::ranges::max(contacts_of(-80.0, field).last), 80.0) << field;
+  }
+}
+
+TEST(ContactForces, AConfiguredFieldThatTheMessageLacksIsNamed) {
+  const auto decided = contacts_of(80.0, "frce");
+  ASSERT_FALSE(decided.notes.notes.empty());
+  EXPECT_EQ(decided.notes.notes[0],
+            "/foot_contacts: no field 'frce' (contacts_field), but contact, force");
 }
 
 }  // namespace

@@ -34,6 +34,16 @@ TEST(ScanPeriod, OfOneCloudIsTheRateNearestToItsSpan) {
   EXPECT_EQ(scan_period({}, std::nullopt), std::nullopt);
 }
 
+TEST(ScanPeriod, OfALidarThatIsBlindBehindIsLongerThanItsSpan) {
+  constexpr Duration kMs = kMillisecond;
+  EXPECT_EQ(scan_period({0, 100 * kMs, 200 * kMs, 400 * kMs}, 50 * kMs, 0.5), 100 * kMs);
+  EXPECT_EQ(scan_period({0, 200 * kMs, 400 * kMs}, 50 * kMs, 0.5), 100 * kMs);
+  // Blind in the middle of the scan: its span is a whole turn.
+  EXPECT_EQ(scan_period({0, 100 * kMs, 200 * kMs, 400 * kMs}, 99 * kMs, 0.5), 100 * kMs);
+  EXPECT_EQ(usual_spacing({0, 100, 200, 400}, 100), 100);
+  EXPECT_EQ(usual_spacing({0, 200, 400, 800}, 100), 200);
+}
+
 TEST(PointTime, KeepsTheDigitsOfSecondsSinceTheEpoch) {
   EXPECT_EQ(point_time(0.0125F, 1e9), std::llround(double{0.0125F} * 1e9));
   EXPECT_EQ(point_time(-1.5, 1e6), -1'500'000);

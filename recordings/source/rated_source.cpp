@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "recordings/source/rated_source.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace aims {
+
+RatedSource::RatedSource(std::unique_ptr<MessageSource> source, double rate)
+    : source_(std::move(source)), rate_(rate), summary_(source_->summary()) {
+  summary_.end = rated(summary_.end);
+}
+
+Time RatedSource::rated(Time record_time) const {
+  const auto since = static_cast<double>(record_time - summary_.start);
+  return summary_.start + std::llround(since / rate_);
+}
+
+Result<std::optional<BagMessage>> RatedSource::next() {
+  auto message = source_->next();
+  summary_.repeated_messages = source_->summary().repeated_messages;
+  if (!message || !*message) return message;
+  (*message)->record_time = rated((*message)->record_time);
+  if ((*message)->sampled) (*message)->sampled = rated(*(*message)->sampled);
+  return message;
+}
+
+}  // namespace aims
