@@ -198,6 +198,7 @@ void EskfEstimator::count_scan(const ScanDiagnostics& diagnostics) {
 
 /// Fuses the prepared points, and learns from the correction how noisy the IMU is.
 void EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
+  silence_ = 0.0;
   if (outage_ > 0.0) find_heading();
   const Belief predicted = belief_;
   const MotionVariance by_legs = std::exchange(taken_by_legs_, {});
@@ -273,7 +274,20 @@ void EskfEstimator::apply_calibration() {
   mapping_->state = at_scan_pose(mapping_->state, matched, calibration_);
 }
 
-/// After an outage of all sensors: turns the belief to the heading at which the scan fits the map.
+/// Follows how long neither IMU nor scans have shown the heading, over `segments_`.
+void EskfEstimator::note_outage() {
+  const double before = outage_;
+  for (const InertialSegment& segment : segments_) {
+    silence_ = segment.measured ? 0.0 : silence_ + to_seconds(segment.end - segment.begin);
+    if (silence_ > kLongestBridge) outage_ = std::max(outage_, silence_);
+  }
+  if (outage_ == before) return;
+  accept(belief_, with_unmeasured_heading(belief_, before, outage_));
+  if (mapping_) accept(*mapping_, with_unmeasured_heading(*mapping_, before, outage_));
+  health_.outage(outage_);
+}
+
+/// After an outage of IMU and LiDAR: turns the belief to the heading at which the scan fits the map.
 void EskfEstimator::find_heading() {
   const auto turn = lidar_update_.turn_onto_map(matching(), points_.to_match(), map_, calibration_,
                                                 heading_reach(outage_));
@@ -291,12 +305,10 @@ void EskfEstimator::predict_to(Time stamp) {
   queue_.imu().segments(time_, stamp, segments_);
   for (const InertialSegment& segment : segments_) {
     if (!segment.measured) ++result_.counts["imu.bridged"];
-    if (!is_outage(segment)) continue;
-    outage_ += to_seconds(segment.end - segment.begin);
-    health_.outage(outage_);
   }
   predict(belief_, to_seconds(stamp - time_));
   if (mapping_) predict(*mapping_, to_seconds(stamp - time_));
+  note_outage();
   time_ = stamp;
   queue_.imu().forget_before(stamp - kSecond);
 }

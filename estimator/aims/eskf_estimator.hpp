@@ -71,6 +71,7 @@ class EskfEstimator : public Estimator, public MotionSource {
   void fuse_standing(const Eigen::Vector3d& rate);
   void prepare_points(const LidarScan& scan, ScanDiagnostics& diagnostics);
   void fuse_scan(ScanDiagnostics& diagnostics);
+  void note_outage();
   void find_heading();
   void count_scan(const ScanDiagnostics& diagnostics);
   ScanDiagnostics diagnostics_of_prediction();
@@ -123,7 +124,8 @@ class EskfEstimator : public Estimator, public MotionSource {
   LegVelocity velocity_;  ///< reported last
   VelocityNoise velocity_noise_;
   MotionVariance taken_by_legs_;          ///< from the covariance since the last scan
-  double outage_ = 0.0;  ///< of all sensors since the heading was known [s]
+  double silence_ = 0.0;                  ///< of IMU and LiDAR until now [s]
+  double outage_ = 0.0;                   ///< the longest since a heading was found, or 0 [s]
   double leg_innovation_ = kNotComputed;  ///< norm of the last one [m/s]
   int leg_updates_ = 0;
 

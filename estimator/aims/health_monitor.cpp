@@ -19,7 +19,7 @@ constexpr double kGap = 0.5;             ///< of legs or LiDAR [s]
 constexpr double kLongImuGap = 2.0;      ///< attitude and velocity are then guesses [s]
 constexpr double kLongGap = 5.0;         ///< without any correction [s]
 constexpr double kMaxRejected = 0.5;     ///< fraction of a sensor's measurements
-constexpr double kSearchedOutage = 2.0;  ///< of all sensors; the drift is searched no farther [s]
+constexpr double kSearchedOutage = 2.0;  ///< of IMU and LiDAR; drift is searched no farther [s]
 constexpr double kForceTolerance = 0.2;  ///< of the mean specific force, relative to gravity
 
 // Limits on how sources disagree.
@@ -131,7 +131,7 @@ void HealthMonitor::judge_agreement(Findings& findings) const {
     findings.degraded.emplace_back("scans disagree with the predicted position");
   }
   if (position_lost_) {
-    findings.degraded.emplace_back("position lost while no sensor measured");
+    findings.degraded.emplace_back("position lost in an outage of the sensors");
   }
   if (calibration_contradicted_) {
     findings.degraded.emplace_back("the robot differs from its calibration");

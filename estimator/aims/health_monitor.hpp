@@ -47,7 +47,7 @@ class HealthMonitor {
   void scan(const ScanDiagnostics& scan, std::size_t points);
   /// The filter refused a result that is not finite.
   void not_finite() { not_finite_ = true; }
-  /// No sensor measured for `duration` [s].
+  /// Neither IMU nor LiDAR measured for `duration` [s].
   void outage(double duration);
   /// The data contradict the calibration that the run started from.
   void calibration_contradicted() { calibration_contradicted_ = true; }

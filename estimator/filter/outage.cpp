@@ -29,7 +29,18 @@ NominalState turned(const NominalState& state, double angle) {
   return result;
 }
 
-double heading_reach(double outage) { return std::min(kTurnRate * outage, std::numbers::pi); }
+double heading_reach(double duration) { return std::min(kTurnRate * duration, std::numbers::pi); }
+
+Belief with_unmeasured_heading(const Belief& belief, double before, double duration) {
+  const double added =
+      squared(0.5 * heading_reach(duration)) - squared(0.5 * heading_reach(before));
+  // Errors of the rotation are in body axes.
+  const Eigen::Vector3d up = belief.state.rotation.conjugate() * Eigen::Vector3d::UnitZ();
+  Belief widened = belief;
+  block(widened.covariance, ErrorState::kRotation, ErrorState::kRotation) +=
+      added * up * up.transpose();
+  return widened;
+}
 
 Belief after_outage(const Belief& belief, double duration) {
   using E = ErrorState;
@@ -39,20 +50,16 @@ Belief after_outage(const Belief& belief, double duration) {
   after.state.position += walked * belief.state.velocity;
   after.state.velocity *= kept;
   ErrorMatrix F = ErrorMatrix::Identity();
-  F.block<3, 3>(E::kPosition.offset, E::kVelocity.offset).diagonal().setConstant(walked);
-  F.block<3, 3>(E::kVelocity.offset, E::kVelocity.offset).diagonal().setConstant(kept);
+  block(F, E::kPosition, E::kVelocity).diagonal().setConstant(walked);
+  block(F, E::kVelocity, E::kVelocity).diagonal().setConstant(kept);
   after.covariance = F * belief.covariance * F.transpose();
-  const auto widen = [&](ErrorState::Block at, const Eigen::Matrix3d& covariance) {
-    after.covariance.block<3, 3>(at.offset, at.offset) += covariance;
+  const auto widen = [&](E::Block at, double sigma) {
+    after.covariance.diagonal().segment<3>(at.offset).array() += squared(sigma);
   };
-  const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
-  widen(E::kVelocity, (1.0 - kept * kept) * squared(kWalkingSpeed) * I);
+  widen(E::kRotation, kTilt);
+  widen(E::kVelocity, std::sqrt(1.0 - kept * kept) * kWalkingSpeed);
   // Three deviations reach a robot that turned around at once.
-  widen(E::kPosition, squared(2.0 / 3.0 * kWalkingSpeed * duration) * I);
-  // Errors of the rotation are in body axes.
-  const Eigen::Vector3d up = belief.state.rotation.conjugate() * Eigen::Vector3d::UnitZ();
-  widen(E::kRotation,
-        squared(kTilt) * I + squared(0.5 * heading_reach(duration)) * up * up.transpose());
+  widen(E::kPosition, 2.0 / 3.0 * kWalkingSpeed * duration);
   return after;
 }
 

@@ -6,20 +6,23 @@
 
 namespace aims {
 
-/// Missing IMU samples are replaced by those around them for so long [s]. After a longer time, over
-/// which nothing else was measured either, the motion is unknown.
+/// Missing IMU samples are replaced by those around them for so long [s]. After a longer time
+/// without scans the heading is unknown, and without any measurement the motion too.
 inline constexpr double kLongestBridge = 0.4;
 
-/// Whether `segment` replaces samples for so long.
+/// Whether `segment`, between two measurements of any sensor, has no samples for so long.
 bool is_outage(const InertialSegment& segment);
 
 /// The belief after `duration` [s] in which no sensor measured: the velocity decays, the attitude
-/// stays, and both, with the position, get the deviation of a robot that walks or turns as it
-/// likes.
+/// stays, and tilt, velocity and position get the deviation of a robot that walks as it likes.
 Belief after_outage(const Belief& belief, double duration);
 
-/// How far the heading may be off after such a time [rad], at most half a turn.
-double heading_reach(double outage);
+/// How far the heading may be off after `duration` [s] without IMU and scans: at most half a turn
+/// [rad].
+double heading_reach(double duration);
+
+/// The belief whose heading was unmeasured for `before` [s] and now is for `duration`.
+Belief with_unmeasured_heading(const Belief& belief, double before, double duration);
 
 /// `state` turned by `angle` [rad] about the vertical through the body.
 NominalState turned(const NominalState& state, double angle);

@@ -30,12 +30,14 @@ class OutageSimulation : public ::testing::Test {
         ->stamp;
   }
 
-  /// What `estimator` makes of the sequence without what arrived within [begin, end).
-  static EstimatorResult without(const char* estimator, Time begin, Time end) {
+  /// What `estimator` makes of the sequence without what was measured within [begin, end), or, with
+  /// `legs`, without IMU and LiDAR alone.
+  static EstimatorResult without(const char* estimator, Time begin, Time end, bool legs = false) {
     const auto estimate = make_estimator(estimator, sequence_.rig).value();
     for (const Delivery& delivery : sequence_.deliveries) {
       const Time stamp = stamp_of(delivery.measurement);
-      if (stamp < begin || stamp >= end) estimate->consume(delivery);
+      const bool kept = legs && std::holds_alternative<LegOdometrySample>(delivery.measurement);
+      if (kept || stamp < begin || stamp >= end) estimate->consume(delivery);
     }
     estimate->finish();
     return estimate->result();
@@ -47,7 +49,7 @@ class OutageSimulation : public ::testing::Test {
 
   static bool names_lost_position(const EstimatorResult& result) {
     return std::ranges::find(result.health.back().reasons,
-                             "position lost while no sensor measured") !=
+                             "position lost in an outage of the sensors") !=
            result.health.back().reasons.end();
   }
 
@@ -65,6 +67,16 @@ TEST_F(OutageSimulation, TheHeadingIsFoundAgainAfterAGapInATurn) {
       EXPECT_LT((end_of(result) - end_of(whole)).norm(), 0.05) << estimator << ' ' << gap;
       EXPECT_FALSE(names_lost_position(result)) << estimator;
     }
+  }
+}
+
+TEST_F(OutageSimulation, TheHeadingIsFoundAgainWhereLegsAloneWentOn) {
+  const Time turning = turned_by(0.4);
+  const EstimatorResult whole = without("aims_d", 0, 0);
+  for (const Duration gap : {kSecond, 3 * kSecond / 2}) {
+    const EstimatorResult result = without("aims_d", turning, turning + gap, true);
+    EXPECT_EQ(result.counts.at("lidar.heading_searched"), 1) << gap;
+    EXPECT_LT((end_of(result) - end_of(whole)).norm(), 0.05) << gap;
   }
 }
 
