@@ -92,18 +92,20 @@ Result<void> check_cases(const DatasetTruth& truth) {
 }
 
 /// Error for poses and points of the truth that are not written as such.
-Result<void> check_points_of(const DatasetTruth& truth) {
+Result<void> check_points_of(const DatasetTruth& truth, const fs::path& file) {
   ScoringRequest request;
   request.extrinsic = truth.extrinsic;
   request.lever_arm = truth.lever_arm;
   request.lever_frame = truth.lever_arm_frame;
   request.end_pose = truth.end_pose;
+  std::string key = "truth";
   auto right = check_points(request);
-  for (const TruthCase& each : truth.cases) {
-    request.extrinsic = each.extrinsic;
-    if (right) right = check_points(request);
+  for (std::size_t i = 0; right && i < truth.cases.size(); ++i) {
+    key = fmt::format("truth.cases.{}", i);
+    request.extrinsic = truth.cases[i].extrinsic;
+    right = check_points(request);
   }
-  if (!right) return failure("truth: " + right.error().message);
+  if (!right) return failure(fmt::format("{}: {}: {}", file.string(), key, right.error().message));
   return {};
 }
 
@@ -129,9 +131,8 @@ Result<void> check_profile(DatasetProfile& profile, std::span<const std::string>
   if (right) right = check_extrinsics(read.recording, assigned);
   if (right) right = check_score_key(profile, assigned);
   if (right) right = check_cases(profile.truth);
-  if (right) right = check_points_of(profile.truth);
-  if (!right) return failure(right.error().message);
-  return {};
+  if (right) right = check_points_of(profile.truth, file);
+  return right;
 }
 
 }  // namespace
@@ -214,13 +215,16 @@ Result<DatasetProfile> load_dataset_profile(const fs::path& file,
   return profile;
 }
 
-const TruthCase* case_of(const DatasetProfile& profile, const std::string& sequence) {
+bool holds_part(const std::string& sequence, std::span<const std::string> parts) {
   const std::string name = lower_case(sequence);
+  return std::ranges::any_of(parts, [&name](const std::string& part) {
+    return name.find(lower_case(part)) != std::string::npos;
+  });
+}
+
+const TruthCase* case_of(const DatasetProfile& profile, const std::string& sequence) {
   for (const TruthCase& each : profile.truth.cases) {
-    const auto fits = [&name](const std::string& part) {
-      return name.find(lower_case(part)) != std::string::npos;
-    };
-    if (std::ranges::any_of(each.of, fits)) return &each;
+    if (holds_part(sequence, each.of)) return &each;
   }
   return nullptr;
 }

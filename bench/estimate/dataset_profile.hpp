@@ -68,6 +68,9 @@ void describe(Fields& fields, DatasetProfile& profile);
 Result<DatasetProfile> load_dataset_profile(const std::filesystem::path& file,
                                             std::span<const std::string> overrides);
 
+/// Whether the name of the sequence holds one of the parts, in any case.
+bool holds_part(const std::string& sequence, std::span<const std::string> parts);
+
 /// The case of that sequence; null: none fits.
 const TruthCase* case_of(const DatasetProfile& profile, const std::string& sequence);
 

@@ -119,10 +119,12 @@ bool is_of_another(const fs::path& file, const std::string& short_of_own,
   const bool whole = name.find(sequence.name) != std::string::npos;
   if (goes_on(name, whole ? sequence.name : short_of_own)) return true;
   return std::ranges::any_of(places.sequences, [&](const DatasetSequence& other) {
+    if (other.name == sequence.name) return false;
     for (const std::string& longer : {other.name, without_date(other.name)}) {
-      const bool part =
-          longer.size() > sequence.name.size() && longer.find(sequence.name) != std::string::npos;
-      if (part && name.find(longer) != std::string::npos) return true;
+      if (name.find(longer) == std::string::npos) continue;
+      for (const std::string& own : {sequence.name, short_of_own}) {
+        if (longer.size() > own.size() && longer.find(own) != std::string::npos) return true;
+      }
     }
     return false;
   });
@@ -151,7 +153,7 @@ FoundFile file_of(const std::vector<std::string>& patterns, const DatasetTruth& 
       if (below.empty() || (shared && !of_sequence)) continue;
       std::vector<fs::path> found = matches_of(below / pattern);
       std::erase_if(found, [&](const fs::path& file) {
-        return (open && is_of_another(file, name, sequence, places)) || is_recording(file);
+        return open && (is_of_another(file, name, sequence, places) || is_recording(file));
       });
       if (found.size() == 1) return {found.front().string(), ""};
       if (found.empty()) continue;
@@ -183,10 +185,11 @@ std::string lack_of(const std::vector<std::string>& patterns, const DatasetTruth
 /// Whether the truth states the end of that sequence.
 bool has_end(const DatasetTruth& truth, const std::string& sequence) {
   if (truth.end_pose.empty()) return false;
-  return truth.end_pose_of.empty() ||
-         std::ranges::any_of(truth.end_pose_of, [&sequence](const std::string& part) {
-           return sequence.find(part) != std::string::npos;
-         });
+  return truth.end_pose_of.empty() || holds_part(sequence, truth.end_pose_of);
+}
+
+std::string topic_of_recording(const fs::path& recording, const std::string& topic) {
+  return fmt::format("{}:{}", recording.string(), topic);
 }
 
 void find_truth(const DatasetProfile& profile, const Places& places, DatasetSequence& sequence) {
@@ -196,7 +199,7 @@ void find_truth(const DatasetProfile& profile, const Places& places, DatasetSequ
   sequence.truth = found.file;
   sequence.lever_arms = points.file;
   if (found.file.empty() && found.several.empty() && !truth.topic.empty()) {
-    sequence.truth = fmt::format("{}:{}", sequence.recording.string(), truth.topic);
+    sequence.truth = topic_of_recording(sequence.recording, truth.topic);
   }
   if (sequence.truth.empty() && !has_end(truth, sequence.name)) {
     sequence.lack = "no truth: " + lack_of(truth.files, truth, sequence, found);
@@ -307,6 +310,14 @@ Result<std::vector<DatasetSequence>> dataset_sequences(const DatasetProfile& pro
   return found;
 }
 
+std::string truth_text(const DatasetProfile& profile, const DatasetSequence& sequence) {
+  const std::string& topic = profile.truth.topic;
+  const bool recorded =
+      !topic.empty() && sequence.truth == topic_of_recording(sequence.recording, topic);
+  return recorded ? fmt::format("topic {} of the recording", topic)
+                  : fs::path(sequence.truth).filename().string();
+}
+
 std::vector<std::string> scoring_notes(const DatasetProfile& profile,
                                        const DatasetSequence& sequence) {
   if (!sequence.lack.empty()) return {"not scored: " + sequence.lack};
@@ -316,7 +327,7 @@ std::vector<std::string> scoring_notes(const DatasetProfile& profile,
           ? fmt::format("truth: the pose of the end in the frame of the start, '{}', as the "
                         "profile states",
                         truth.end_pose)
-          : fmt::format("truth: {}", fs::path(sequence.truth).filename().string())};
+          : fmt::format("truth: {}", truth_text(profile, sequence))};
   if (!truth.extrinsic.empty()) {
     notes.push_back(fmt::format("IMU in the body of the truth: {}", truth.extrinsic));
   } else if (!sequence.truth.empty() && truth.lever_arm.empty() && sequence.lever_arms.empty()) {
@@ -324,14 +335,15 @@ std::vector<std::string> scoring_notes(const DatasetProfile& profile,
         "the truth is taken to be of the IMU: the profile states no extrinsic and "
         "no lever arm");
   }
+  const std::string frame =
+      truth.lever_arm_frame.empty()
+          ? ""
+          : ", in a frame whose pose in the IMU frame is " + truth.lever_arm_frame;
   if (!sequence.lever_arms.empty()) {
-    notes.push_back(fmt::format("measured points in the body: {}",
-                                fs::path(sequence.lever_arms).filename().string()));
+    notes.push_back(fmt::format("measured points in the body: {}{}",
+                                fs::path(sequence.lever_arms).filename().string(), frame));
   } else if (!sequence.truth.empty() && !truth.lever_arm.empty()) {
-    notes.push_back("lever arm: " + truth.lever_arm);
-  }
-  if (!sequence.truth.empty() && !truth.lever_arm_frame.empty()) {
-    notes.push_back("in a frame whose pose in the IMU frame is " + truth.lever_arm_frame);
+    notes.push_back("lever arm: " + truth.lever_arm + frame);
   }
   if (truth.time_offset_s != 0.0) {
     notes.push_back(fmt::format("{} s added to the stamps of the estimates", truth.time_offset_s));

@@ -48,8 +48,7 @@ Result<void> check_overlap(const SourcedTrajectory& estimate, const SourcedTraje
   if (const auto offset = motion_offset(estimate.trajectory, truth.trajectory)) {
     return failure(
         fmt::format("{}if both are of one walk, with --time-offset {:.2f} they stand and walk at "
-                    "the same times "
-                    "(their speeds correlate by {:.2f})",
+                    "the same times (their speeds correlate by {:.2f})",
                     apart, offset->seconds, offset->correlation));
   }
   return failure(

@@ -229,6 +229,7 @@ Json sequence_json(const DatasetBenchmark& benchmark, const DatasetSequence& seq
   Json json = {{"name", sequence.name},
                {"recording", sequence.recording.string()},
                {"truth", sequence.truth},
+               {"truth_text", sequence.truth.empty() ? "" : truth_text(profile, sequence)},
                {"lack", sequence.lack},
                {"notes", scoring_notes(profile, sequence)},
                {"ours", Json::object()},

@@ -6,7 +6,6 @@
 #include "bench/run/code_version.hpp"
 #include "bench/scoring/json_text.hpp"
 #include "bench/scoring/report.hpp"
-#include "bench/scoring/validity.hpp"
 #include "bench/studies/families.hpp"
 #include "bench/studies/success_pairs.hpp"
 #include "bench/studies/suite_tables.hpp"
@@ -37,14 +36,6 @@ Json scores_json(std::span<const RunRecord> runs, const std::string& estimator) 
   return scores;
 }
 
-/// Whether a valid run has scores of the estimator without a success, of which its truth says
-/// nothing.
-bool has_unjudged(std::span<const RunRecord> runs, const std::string& estimator) {
-  return std::ranges::any_of(runs, [&estimator](const RunRecord& run) {
-    return is_valid_run(run) && !estimator_in(run, estimator).is_null();
-  });
-}
-
 Json case_json(const SuiteCase& each) {
   Json json = {{"name", each.scenario.name},
                {"tags", each.scenario.tags},
@@ -64,7 +55,7 @@ Json case_json(const SuiteCase& each) {
   if (each.runs.empty()) return json;
   for (const std::string& estimator : labels_of(each.scenario.run)) {
     const SuccessRate rate = success_rate(each.runs, estimator);
-    if (rate.runs == 0 && !has_unjudged(each.runs, estimator)) continue;
+    if (rate.runs == 0 && finished(each.runs, estimator) == 0) continue;
     const Interval interval = rate.interval();
     json["estimators"][estimator] = {
         {"runs", rate.runs},

@@ -127,7 +127,9 @@ TextTable headline_table(const Suite& suite, const Score& score) {
 TextTable success_table(const Suite& suite, const Score& score) {
   return matrix(suite, [&](const SuiteCase& each, const std::string& estimator) {
     const SuccessRate rate = success_rate(each.runs, estimator, score.key);
-    return rate.runs > 0 ? rate.text() : invalid_cell(each, estimator);
+    if (rate.runs > 0) return rate.text();
+    // The truth may say nothing of a success.
+    return ran(each, estimator) ? std::string("-") : invalid_cell(each, estimator);
   });
 }
 

@@ -129,7 +129,7 @@ TEST_F(Profiles, WhatIsNoPoseOrPointIsAnErrorBeforeTheRun) {
   EXPECT_TRUE(holds(error_of("truth: {files: [a.txt], lever_arm: 1 2}\n"), "--lever-arm '1 2'"));
   EXPECT_TRUE(holds(error_of("truth: {end_pose: up}\n"), "--end-pose 'up'"));
   EXPECT_TRUE(holds(error_of("truth: {files: [a.txt], cases: [{of: [a], extrinsic: b}]}\n"),
-                    "--extrinsic 'b'"));
+                    "mine.yaml: truth.cases.0: --extrinsic 'b'"));
   EXPECT_TRUE(holds(error_of("truth: {files: [a.txt], cases: [{files: [b]}]}\n"),
                     "truth.cases.0.of: expected"));
   EXPECT_TRUE(holds(error_of("truth: {files: [a.txt], cases: [{of: [a]}]}\n"), "truth.cases.0: "));
@@ -169,6 +169,28 @@ TEST_F(Profiles, ATruthOfAnotherSequenceIsNotTaken) {
   EXPECT_EQ(truths(*profile), (Lines{none}));
   put("data/day_2021-07-01.csv");
   EXPECT_EQ(truths(*profile), (Lines{"day: day_2021-07-01.csv"})) << "a date";
+}
+
+TEST_F(Profiles, ATruthOfAnotherSequenceIsNotTakenByNamesWithoutTheDate) {
+  const auto profile = load("truth: {files: [\"*{name}*.csv\"]}\n");
+  ASSERT_TRUE(profile) << profile.error().message;
+  put("data/2021-07-01-10-37-38-quad.bag");
+  put("data/2021-07-01-10-40-50-quad-hard.bag");
+  put("data/gt-quad-hard.csv");
+  const Lines found = truths(*profile);
+  EXPECT_TRUE(holds(found[0], "2021-07-01-10-37-38-quad: no truth")) << found[0];
+  EXPECT_EQ(found[1], "2021-07-01-10-40-50-quad-hard: gt-quad-hard.csv");
+}
+
+TEST_F(Profiles, ATruthOnATopicIsNamedByIt) {
+  const auto profile = load("truth: {topic: /boxi/prism/position}\n");
+  ASSERT_TRUE(profile) << profile.error().message;
+  DatasetSequence sequence{.name = "day",
+                           .recording = "data/day.bag",
+                           .truth = "data/day.bag:/boxi/prism/position"};
+  EXPECT_EQ(truth_text(*profile, sequence), "topic /boxi/prism/position of the recording");
+  sequence.truth = "data/day_leica.csv";
+  EXPECT_EQ(truth_text(*profile, sequence), "day_leica.csv");
 }
 
 TEST_F(Profiles, SeveralTruthsOfOnePatternAreNamedAndNoneIsTaken) {

@@ -44,8 +44,8 @@ test("a benchmark leads with its own score, whatever other scores order", { skip
     title: "A data set", score: key, unit: "of 100", score_text: "points of control points", better: "larger",
     notes: ["cite: someone", "day: truth: day_gt.txt"],
     sequences: [
-      { name: "day", truth: "/data/day_gt.txt", lack: "", ours: { a: 40, b: 60 }, published: { LOAM: 50 } },
-      { name: kHostile, truth: "", lack: "no truth: looked for it", ours: { a: null, b: null }, published: {} },
+      { name: "day", truth: "/data/day_gt.txt", truth_text: "day_gt.txt", lack: "", ours: { a: 40, b: 60 }, published: { LOAM: 50 } },
+      { name: kHostile, truth: "", truth_text: "", lack: "no truth: looked for it", ours: { a: null, b: null }, published: {} },
     ],
   };
   const { page, troubles, ready } = await pages.show(data);

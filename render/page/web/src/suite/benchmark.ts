@@ -31,8 +31,8 @@ function table(benchmark: Benchmark): HTMLElement {
     ...namesIn(benchmark, "ours").map((name) => scoreColumn("ours", name)),
     ...namesIn(benchmark, "published").map((name) => scoreColumn("published", name)),
     {
-      title: "truth", value: (row) => row.lack || (row.truth ?? ""),
-      show: (row) => (row.lack ? `not scored: ${row.lack}` : row.truth ? row.truth.split("/").pop()! : "pose of the end"),
+      title: "truth", value: (row) => row.lack || (row.truth_text ?? ""),
+      show: (row) => (row.lack ? `not scored: ${row.lack}` : row.truth_text || "pose of the end"),
     },
   ];
   return sortableTable(benchmark.sequences, columns, {

@@ -231,7 +231,7 @@ export interface Benchmark {
   better?: string;
   published_source?: string;
   notes?: string[];
-  sequences: { name: string; truth?: string; lack?: string; notes?: string[]; ours: Record<string, Maybe>; published: Record<string, Maybe> }[];
+  sequences: { name: string; truth_text?: string; lack?: string; notes?: string[]; ours: Record<string, Maybe>; published: Record<string, Maybe> }[];
 }
 
 /** A scenario that could not be loaded, or estimators (a list of labels) that failed on one of its sequences. */

@@ -31,7 +31,7 @@ function scoreColumn(data: SuitePayload, scenario: string, score: Headline): Col
   const of = (row: Row) => own<{ median: unknown; worst: unknown }>(row.summary.scores, score.key);
   const whole = (row: Row) => isWhole(data, scenario, row.name);
   return {
-    title: score.title, unit: score.unit, best: bestEnd(score), eligible: (row) => row.summary.successes > 0 && whole(row),
+    title: score.title, unit: score.unit, best: bestEnd(score), eligible: (row) => !isLost(row, of(row)?.median) && whole(row),
     hint: "median over seeds (worst)",
     value: (row) => {
       const median = of(row)?.median;
