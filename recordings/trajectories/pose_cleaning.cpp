@@ -174,6 +174,12 @@ void drop_unusable(Trajectory& poses, const std::string& name, std::vector<std::
     notes.push_back(fmt::format("{}: {} of {} poses dropped: {}", name,
                                 poses.size() - usable.size(), poses.size(), text_of(counts)));
   }
+  if (counts[kRepeated] > usable.size() && usable.size() > 1) {
+    notes.push_back(fmt::format(
+        "{}: {} poses share {} stamps: stamps are rounded, and scores compare poses of other "
+        "instants; write them with all digits",
+        name, counts[kRepeated] + usable.size(), usable.size()));
+  }
   poses = std::move(usable);
 }
 

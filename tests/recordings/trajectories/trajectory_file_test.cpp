@@ -221,6 +221,19 @@ TEST_F(TrajectoryFiles, UnusablePosesOfATruthAreLeftOutWithTheirCauses) {
       << read->notes[2];
 }
 
+TEST_F(TrajectoryFiles, StampsRoundedToSecondsAreSaid) {
+  std::string text;
+  for (int i = 0; i < 40; ++i) {
+    text += std::to_string(100 + i / 10) + ' ' + std::to_string(0.1 * i) + " 0 0 0 0 0 1\n";
+  }
+  const auto read = read_trajectory(file("rounded.txt", text), {});
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->trajectory.size(), 4U);
+  EXPECT_NE(read->notes.back().find("40 poses share 4 stamps: stamps are rounded"),
+            std::string::npos)
+      << read->notes.back();
+}
+
 TEST_F(TrajectoryFiles, TablesHaveWWhereTheirHeaderOrTheirStampsTell) {
   const std::vector<std::string> texts = {
       "#timestamp, p_x, p_y, p_z, q_RS_w [], q_x, q_y, q_z, v_x\n1500000000,1,2,3,0.8,0,0,0.6,9\n",
