@@ -161,7 +161,7 @@ bool is_clearly_scaled(const AxisCheck& check) {
 }
 
 /// The likelier first: inverted, upside down, turned, off by some degrees, axes of another sign or
-/// scale, mirrored; then what gravity contradicts.
+/// scale, mirrored clouds; then what gravity contradicts.
 std::vector<Hypothesis> hypotheses(std::span<const RotationPair> pairs,
                                    const std::array<AxisCheck, 3>& axes,
                                    const Eigen::Matrix3d& given, const Eigen::Vector3d& up) {
@@ -175,6 +175,14 @@ std::vector<Hypothesis> hypotheses(std::span<const RotationPair> pairs,
   if (auto scaled = scaled_axes(axes, given)) all.push_back(*std::move(scaled));
   for (const Eigen::Matrix3d& P : changes) {
     if (P.determinant() < 0.0) all.push_back({cause_of(P), P * given, false});
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    Eigen::Matrix3d turn = -Eigen::Matrix3d::Identity();  // rotations are mirrored the other way
+    turn(axis, axis) = 1.0;
+    all.push_back({fmt::format("{} of the clouds is mirrored, or the IMU is turned by 180 degrees "
+                               "about {}, which gravity contradicts: the driver must correct that",
+                               "xy"[axis], "xy"[axis]),
+                   given * turn, false});
   }
   std::ranges::stable_partition(
       all, [&up](const Hypothesis& each) { return !each.is_mount || is_upright(each.R, up); });

@@ -112,6 +112,16 @@ TEST(MountCheck, GravityTellsASignOfTheGyroFromAnImuThatIsUpsideDown) {
   EXPECT_NE(overhead.cause.find("turned by 180 degrees"), std::string::npos) << overhead.cause;
 }
 
+TEST(MountCheck, GravityTellsMirroredCloudsFromAnImuThatIsUpsideDown) {
+  const Eigen::Matrix3d mirror = Eigen::Vector3d(1.0, -1.0, 1.0).asDiagonal();
+  std::vector<RotationPair> pairs = rotations(kMount.toRotationMatrix(), true);
+  for (RotationPair& each : pairs) each.lidar = -(mirror * each.lidar);
+  const MountCheck check = check_mount(pairs, kMount, Eigen::Vector3d(0.0, 0.1, 9.8));
+  EXPECT_TRUE(check.contradicts);
+  EXPECT_FALSE(check.correctable);
+  EXPECT_EQ(check.cause.find("y of the clouds is mirrored"), 0U) << check.cause;
+}
+
 TEST(MountCheck, OnlyAxesAboutWhichTheBodyTurnsCountAsChecked) {
   const MountCheck check =
       check_mount(rotations(Eigen::Matrix3d::Identity(), false), Eigen::Quaterniond::Identity());
