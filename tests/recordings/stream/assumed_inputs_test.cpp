@@ -8,6 +8,7 @@
 
 #include "recordings/messages/message_encoding.hpp"
 #include "recordings/messages/message_types.hpp"
+#include "recordings/stream/record_clock.hpp"
 #include "tests/recordings/stream/recorded_deliveries.hpp"
 #include "tests/recordings/stream/robot_recording.hpp"
 
@@ -218,6 +219,38 @@ TEST_F(AssumedInputs, ADelayThatCorrectsAClockHoldsNoMessageUpAndEndsTheWarning)
   }
 }
 
+TEST_F(AssumedInputs, ADelayIsAppliedOnceWhereTheRecorderIsFarOff) {
+  for (const bool late : {false, true}) {  // on a clock that is ahead, or late samples
+    const double off = late ? 0.15 : 0.5;
+    std::filesystem::remove(bag());
+    RobotRecording robot(bag());
+    robot.add_transforms(kMounted);
+    for (int k = 0; k < 30; ++k) {
+      const Time stamp = kStart + k * 100 * kMillisecond;
+      robot.add_cloud(test::RawCloud::of(stamp, {{1, 2, 3, 0}, {1, 2, 3, 0.09F}}),
+                      stamp + 10 * kSecond + 100 * kMillisecond);
+    }
+    for (int k = 0; k < 150; ++k) {
+      const Time now = kStart + k * 20 * kMillisecond;
+      ImuSample sample;
+      sample.stamp = now + from_seconds(off);
+      sample.specific_force.z() = 9.81;
+      robot.add("/imu", imu_type(), (late ? sample.stamp : now) + 10 * kSecond,
+                imu_message({0, sample.stamp, "imu"}, sample));
+    }
+    robot.close();
+    RecordingConfig config;
+    config.imu_delay = late ? off : off - 0.05;
+    const Recording read = test::read_recording(bag(), config);
+    EXPECT_FALSE(read.deliveries.empty());
+    for (const Delivery& each : read.deliveries) {
+      const Duration after = each.arrival - stamp_of(each.measurement);
+      ASSERT_GT(after, -10 * kMillisecond) << off;
+      ASSERT_LT(after, kSecond / 5) << off;
+    }
+  }
+}
+
 TEST_F(AssumedInputs, RecordTimesOfARecordingPlayedAtAnotherSpeedFollowTheStamps) {
   for (const double rate : {0.25, 0.5, 0.9, 1.0, 1.1, 2.0}) {
     std::filesystem::remove(bag());
@@ -247,6 +280,33 @@ TEST_F(AssumedInputs, RecordTimesOfARecordingPlayedAtAnotherSpeedFollowTheStamps
       const Duration late = each.arrival - stamp_of(each.measurement);
       ASSERT_LT(std::abs(late), kSecond / 5) << rate;
     }
+  }
+}
+
+TEST_F(AssumedInputs, ARecordingPlayedAtAnotherSpeedIsToldWithADenseImuToo) {
+  for (const int hz : {400, 1000}) {
+    std::filesystem::remove(bag());
+    RobotRecording robot(bag());
+    robot.add_transforms(kMounted);
+    const Time begin = 2 * kSetRecordTime;  // fixed transforms are recorded at 1 s
+    const auto recorded = [begin](Time now) { return begin + 95 * (now - begin) / 100; };
+    for (int k = 0; k < 200; ++k) {
+      const Time stamp = begin + k * 100 * kMillisecond;
+      robot.add_cloud(test::RawCloud::of(stamp, {{1, 2, 3, 0}, {1, 2, 3, 0.09F}}),
+                      recorded(stamp + 100 * kMillisecond));
+    }
+    for (int k = 0; k < 20 * hz; ++k) {
+      ImuSample sample;
+      sample.stamp = begin + k * kSecond / hz;
+      sample.specific_force.z() = 9.81;
+      robot.add("/imu", imu_type(), recorded(sample.stamp),
+                imu_message({0, sample.stamp, "imu"}, sample));
+    }
+    robot.close();
+    const Recording read = test::read_recording(bag(), {});
+    EXPECT_TRUE(warns(read.setup, "times as fast as the stamps")) << hz;
+    EXPECT_EQ(read.setup.warnings.size(), 2U) << hz << ": that, and of missing rings";
+    EXPECT_FALSE(read.noted("they are shifted by it")) << hz;
   }
 }
 
