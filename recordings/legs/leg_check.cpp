@@ -89,10 +89,12 @@ void LegCheck::add_imu(const ImuSample& sample, const Eigen::Vector3d& place) {
   if (sample.stamp - begin_ >= kWindow) close();
 }
 
-void LegCheck::add_joints(const std::array<double, kJointCount>& angles) {
+void LegCheck::add_joints(const std::array<double, kJointCount>& angles,
+                          const std::array<bool, kLegCount>& unknown) {
   if (!window_.angles) window_.angles = angles;
   for (std::size_t i = 0; i < angles.size(); ++i) {
-    if (angles[i] != (*window_.angles)[i]) window_.moved[i / 3] = true;
+    const bool kept = angles[i] == (*window_.angles)[i] && !unknown[i / 3];
+    window_.moved[i / 3] = window_.moved[i / 3] || !kept;
   }
 }
 
@@ -386,8 +388,7 @@ std::vector<ReadingWarning> LegCheck::warnings() const {
   std::vector<ReadingWarning> found;
   if (check_frozen(found)) return found;  // which spoils all else
   check_idle(found);
-  if (!found.empty()) return found;
-  check_stances(found);
+  if (found.empty()) check_stances(found);
   if (found.empty()) check_slopes(found);
   if (found.empty()) check_sides(found);
   check_turning(found);

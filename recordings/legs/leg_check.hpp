@@ -51,8 +51,10 @@ class LegCheck {
 
   /// In base axes; `place` is that of the IMU in the base.
   void add_imu(const ImuSample& sample, const Eigen::Vector3d& place);
-  /// The angles of all joints, before the feet of that instant.
-  void add_joints(const std::array<double, kJointCount>& angles);
+  /// The angles of all joints, before the feet of that instant; `unknown`: legs that keep their
+  /// last ones, since theirs are no numbers.
+  void add_joints(const std::array<double, kJointCount>& angles,
+                  const std::array<bool, kLegCount>& unknown = {});
   /// The feet in contact and the velocity of the base that they state, in base axes; `differenced`:
   /// by differences of angles, of which some reach over touchdown.
   void add_feet(const std::vector<StandingFoot>& feet, const Eigen::Vector3d& velocity,
@@ -83,7 +85,7 @@ class LegCheck {
     std::array<Stance, kLegCount> stances;
     bool differenced = false;                               ///< velocities of feet are
     std::optional<std::array<double, kJointCount>> angles;  ///< the first
-    std::array<bool, kLegCount> moved{};                    ///< angles of the leg changed
+    std::array<bool, kLegCount> moved{};  ///< angles of the leg changed, or may have
   };
   /// Mean velocities of a window.
   struct Velocities {
