@@ -45,23 +45,6 @@ bool is_degrees(double scale) { return scale > kLeastDegrees && scale < kMostDeg
 
 }  // namespace
 
-void SignalAgreement::add(double first, double second) {
-  if (!std::isfinite(first) || !std::isfinite(second)) return;
-  ++count_;
-  first_squared_ += first * first;
-  second_squared_ += second * second;
-  product_ += first * second;
-}
-
-double SignalAgreement::correlation() const {
-  const double both = first_squared_ * second_squared_;
-  return both > 0.0 ? product_ / std::sqrt(both) : 0.0;
-}
-
-double SignalAgreement::scale() const {
-  return second_squared_ > 0.0 ? product_ / second_squared_ : 0.0;
-}
-
 void LegCheck::add_imu(const ImuSample& sample, const Eigen::Vector3d& place) {
   signs_.add_imu(sample, place);
   const double force = sample.specific_force.norm();

@@ -11,6 +11,7 @@
 #include "core/leg_kinematics.hpp"
 #include "core/measurements.hpp"
 #include "recordings/legs/axis_signs.hpp"
+#include "recordings/legs/signal_agreement.hpp"
 #include "recordings/reading_notes.hpp"
 
 namespace aims {
@@ -23,19 +24,6 @@ struct StandingFoot {
   int leg = 0;
   Eigen::Vector3d position;  ///< [m]
   Eigen::Vector3d velocity;  ///< [m/s]
-};
-
-/// How two signals that should be the same agree.
-class SignalAgreement {
- public:
-  void add(double first, double second);
-  int count() const { return count_; }
-  double correlation() const;  ///< about zero
-  double scale() const;        ///< of the first to the second, by least squares
-
- private:
-  int count_ = 0;
-  double first_squared_ = 0.0, second_squared_ = 0.0, product_ = 0.0;
 };
 
 /// Checks legs and IMU by each other over half seconds of a walk, since single samples of feet say
