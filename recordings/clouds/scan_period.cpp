@@ -48,7 +48,10 @@ std::optional<Duration> scan_period(std::vector<Time> stamps, std::optional<Dura
     return integer_rate(*span);
   }
   const Duration shortest = *std::min_element(between.begin(), between.end());
-  const Duration turn = whole_turn(span.value_or(shortest), seen);
+  const Duration whole = whole_turn(span.value_or(shortest), seen);
+  // A turn is no longer than what is between clouds: else nothing turns, as in a Livox.
+  const Duration usual = *upper_median(between);
+  const Duration turn = whole <= usual + usual / 10 ? whole : span.value_or(shortest);
   const Duration base = shortest > turn + turn / 2 ? turn : shortest;
   std::map<Duration, std::size_t> periods;
   for (const Duration each : between) {
@@ -63,9 +66,9 @@ std::optional<Duration> scan_period(std::vector<Time> stamps, std::optional<Dura
   // Jittering stamps: the firing span measures the period better, if it is close.
   const Duration typical = *upper_median(each);
   const auto off = [typical](Duration period) { return std::abs(period - typical); };
-  const Duration whole = integer_rate(span ? turn : typical);
+  const Duration turned = integer_rate(span ? turn : typical);
   const Duration seen_only = integer_rate(span.value_or(typical));
-  const Duration fired = off(whole) < off(seen_only) ? whole : seen_only;
+  const Duration fired = off(turned) < off(seen_only) ? turned : seen_only;
   return off(fired) <= typical / 4 ? fired : integer_rate(typical);
 }
 

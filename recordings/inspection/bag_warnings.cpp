@@ -105,6 +105,14 @@ bool is_said(const BagInfo& info, const std::string& topic) {
   });
 }
 
+/// Whether it says that the stamps of a topic do not serve at all.
+bool is_unstamped(const BagInfo& info, const std::string& topic) {
+  return std::ranges::any_of(info.notes, [&topic](const std::string& note) {
+    return note.starts_with(topic + ": stamps do not") ||
+           note.starts_with(topic + ": stamps are all zero");
+  });
+}
+
 /// Stamps whose clock is not that of the IMU, or without an IMU not the recorder's.
 void warn_of_stamps(const BagInfo& info, const TopicInfo& topic, std::vector<std::string>& out) {
   const TopicInfo* reference = reference_of(info);
@@ -151,7 +159,7 @@ void warn_of_times(const BagInfo& info, const TopicInfo& topic, std::vector<std:
                     topic.rate_hz.value_or(0.0) / *topic.messages_per_stamp,
                     *topic.messages_per_stamp > kStandingClock ? "record times serve in their place"
                                                                : "one of each batch is used"));
-  } else if (topic.repeated + topic.backwards > 0 && !is_said(info, topic.topic)) {
+  } else if (topic.repeated + topic.backwards > 0 && !is_unstamped(info, topic.topic)) {
     out.push_back(
         fmt::format("{}: {} stamps repeat and {} go backwards; such messages are dropped: fix the "
                     "driver's clock",

@@ -56,8 +56,11 @@ bool StaticIntervalFinder::turns(const Sums& window) const {
   const Eigen::Vector3d turning = force.cross(rate);
   const Eigen::Vector3d trend =
       (window.force_by_time - window.time / count * window.force) / spread;
-  const double noise =
-      deviation(window.force, window.force_squares, count).maxCoeff() / std::sqrt(spread);
+  const Eigen::Vector3d all = deviation(window.force, window.force_squares, count).cwiseAbs2();
+  // About the line; the deviation about the mean would hold the trend itself.
+  const Eigen::Vector3d rest =
+      ((count * all - spread * trend.cwiseAbs2()) / (count - 2)).cwiseMax(0.0);
+  const double noise = std::sqrt(rest.maxCoeff() / spread);
   const double half = 0.5 * turning.norm();
   return half > kClear * noise && trend.dot(turning) > half * turning.norm();
 }

@@ -45,23 +45,6 @@ bool is_degrees(double scale) { return scale > kLeastDegrees && scale < kMostDeg
 
 }  // namespace
 
-void SignalAgreement::add(double first, double second) {
-  if (!std::isfinite(first) || !std::isfinite(second)) return;
-  ++count_;
-  first_squared_ += first * first;
-  second_squared_ += second * second;
-  product_ += first * second;
-}
-
-double SignalAgreement::correlation() const {
-  const double both = first_squared_ * second_squared_;
-  return both > 0.0 ? product_ / std::sqrt(both) : 0.0;
-}
-
-double SignalAgreement::scale() const {
-  return second_squared_ > 0.0 ? product_ / second_squared_ : 0.0;
-}
-
 void LegCheck::add_imu(const ImuSample& sample, const Eigen::Vector3d& place) {
   signs_.add_imu(sample, place);
   const double force = sample.specific_force.norm();
@@ -89,10 +72,12 @@ void LegCheck::add_imu(const ImuSample& sample, const Eigen::Vector3d& place) {
   if (sample.stamp - begin_ >= kWindow) close();
 }
 
-void LegCheck::add_joints(const std::array<double, kJointCount>& angles) {
+void LegCheck::add_joints(const std::array<double, kJointCount>& angles,
+                          const std::array<bool, kLegCount>& unknown) {
   if (!window_.angles) window_.angles = angles;
   for (std::size_t i = 0; i < angles.size(); ++i) {
-    if (angles[i] != (*window_.angles)[i]) window_.moved[i / 3] = true;
+    const bool kept = angles[i] == (*window_.angles)[i] && !unknown[i / 3];
+    window_.moved[i / 3] = window_.moved[i / 3] || !kept;
   }
 }
 
@@ -386,8 +371,7 @@ std::vector<ReadingWarning> LegCheck::warnings() const {
   std::vector<ReadingWarning> found;
   if (check_frozen(found)) return found;  // which spoils all else
   check_idle(found);
-  if (!found.empty()) return found;
-  check_stances(found);
+  if (found.empty()) check_stances(found);
   if (found.empty()) check_slopes(found);
   if (found.empty()) check_sides(found);
   check_turning(found);

@@ -11,6 +11,7 @@
 #include "core/leg_kinematics.hpp"
 #include "core/measurements.hpp"
 #include "recordings/legs/axis_signs.hpp"
+#include "recordings/legs/signal_agreement.hpp"
 #include "recordings/reading_notes.hpp"
 
 namespace aims {
@@ -23,19 +24,6 @@ struct StandingFoot {
   int leg = 0;
   Eigen::Vector3d position;  ///< [m]
   Eigen::Vector3d velocity;  ///< [m/s]
-};
-
-/// How two signals that should be the same agree.
-class SignalAgreement {
- public:
-  void add(double first, double second);
-  int count() const { return count_; }
-  double correlation() const;  ///< about zero
-  double scale() const;        ///< of the first to the second, by least squares
-
- private:
-  int count_ = 0;
-  double first_squared_ = 0.0, second_squared_ = 0.0, product_ = 0.0;
 };
 
 /// Checks legs and IMU by each other over half seconds of a walk, since single samples of feet say
@@ -51,8 +39,10 @@ class LegCheck {
 
   /// In base axes; `place` is that of the IMU in the base.
   void add_imu(const ImuSample& sample, const Eigen::Vector3d& place);
-  /// The angles of all joints, before the feet of that instant.
-  void add_joints(const std::array<double, kJointCount>& angles);
+  /// The angles of all joints, before the feet of that instant; `unknown`: legs that keep their
+  /// last ones, since theirs are no numbers.
+  void add_joints(const std::array<double, kJointCount>& angles,
+                  const std::array<bool, kLegCount>& unknown = {});
   /// The feet in contact and the velocity of the base that they state, in base axes; `differenced`:
   /// by differences of angles, of which some reach over touchdown.
   void add_feet(const std::vector<StandingFoot>& feet, const Eigen::Vector3d& velocity,
@@ -83,7 +73,7 @@ class LegCheck {
     std::array<Stance, kLegCount> stances;
     bool differenced = false;                               ///< velocities of feet are
     std::optional<std::array<double, kJointCount>> angles;  ///< the first
-    std::array<bool, kLegCount> moved{};                    ///< angles of the leg changed
+    std::array<bool, kLegCount> moved{};  ///< angles of the leg changed, or may have
   };
   /// Mean velocities of a window.
   struct Velocities {

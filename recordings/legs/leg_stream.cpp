@@ -287,7 +287,7 @@ std::optional<LegOdometrySample> LegStream::forward_kinematics(const WaitingJoin
                                : velocity_from_foot(leg, motion, config_.geometry));
   }
   if (disagree(velocities)) ++counts["feet_in_contact_disagree"];
-  check_.add_joints(joints.position);
+  check_.add_joints(joints.position, joints.unknown);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& each : velocities) sum += each;
   check_.add_feet(feet, sum / static_cast<double>(std::max<std::size_t>(1, feet.size())),

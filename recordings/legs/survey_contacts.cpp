@@ -248,7 +248,7 @@ bool LegSurvey::contacts_hold(ReadingNotes& notes) const {
 Result<ContactRule> LegSurvey::rule_of_loads(ReadingNotes& notes) const {
   ContactRule rule = rule_of(config_.contact_threshold);
   if (topics_.contacts.empty()) return rule;
-  if (!number_fields_.empty()) {
+  if (contact_messages_ == 0 && !number_fields_.empty()) {
     notes.push_back(fmt::format("{}: no field '{}' (contacts_field), but {}", topics_.contacts,
                                 contact_field_, number_fields_));
     return rule;

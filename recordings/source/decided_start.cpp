@@ -38,7 +38,9 @@ class WithoutForgotten final : public MessageSource {
       if (!message || !*message) return message;
       begun_ = (*message)->connection->topic == kForgottenTopic;
     }
-    return recording_->next();
+    auto message = recording_->next();
+    summary_.repeated_messages = recording_->summary().repeated_messages;
+    return message;
   }
 
   void rewind() override {

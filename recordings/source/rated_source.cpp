@@ -6,14 +6,14 @@
 
 namespace aims {
 
-RatedSource::RatedSource(std::unique_ptr<MessageSource> source, double rate)
-    : source_(std::move(source)), rate_(rate), summary_(source_->summary()) {
+RatedSource::RatedSource(std::unique_ptr<MessageSource> source, double rate, Time start)
+    : source_(std::move(source)), rate_(rate), start_(start), summary_(source_->summary()) {
   summary_.end = rated(summary_.end);
 }
 
 Time RatedSource::rated(Time record_time) const {
-  const auto since = static_cast<double>(record_time - summary_.start);
-  return summary_.start + std::llround(since / rate_);
+  if (record_time < start_) return record_time;
+  return start_ + std::llround(static_cast<double>(record_time - start_) / rate_);
 }
 
 Result<std::optional<BagMessage>> RatedSource::next() {

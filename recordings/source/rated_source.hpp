@@ -8,10 +8,11 @@
 namespace aims {
 
 /// A recording whose record times ran faster than the time of its sensors by `rate`, with record
-/// times as if they had not.
+/// times as if they had not from `start` on. Those before it are of a clock that was not set yet,
+/// and stay.
 class RatedSource final : public MessageSource {
  public:
-  RatedSource(std::unique_ptr<MessageSource> source, double rate);
+  RatedSource(std::unique_ptr<MessageSource> source, double rate, Time start);
 
   std::string name() const override { return source_->name(); }
   const std::vector<BagConnection>& connections() const override { return source_->connections(); }
@@ -25,6 +26,7 @@ class RatedSource final : public MessageSource {
 
   std::unique_ptr<MessageSource> source_;
   double rate_;
+  Time start_;
   BagSummary summary_;
 };
 

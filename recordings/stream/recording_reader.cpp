@@ -554,7 +554,7 @@ Result<RecordingReader> RecordingReader::open_source(std::unique_ptr<MessageSour
   auto plan = plan_recording(as_live ? start : *bag, config, *topics, *channels, notes);
   if (!plan) return tl::unexpected(plan.error());
   if (const auto rate = recorded && !as_live ? plan->record_rate : std::nullopt) {
-    bag = std::make_unique<RatedSource>(std::move(bag), *rate);
+    bag = std::make_unique<RatedSource>(std::move(bag), *rate, plan->start);
     plan = plan_recording(*bag, config, *topics, *channels, std::move(notes));
     if (!plan) return tl::unexpected(plan.error());
     plan->setup.warnings.push_back(warning_of_record_rate(*rate));

@@ -99,7 +99,16 @@ class RecordingSurvey {
   void note_record_times(Role role, const std::string& topic);
   void decide_repeats(RecordingPlan& plan);
   void decide_stamps(RecordingPlan& plan);
-  static std::optional<double> record_rate_of(const Seen& each);
+  /// Of latencies over the stamps seen.
+  struct LatencyGrowth {
+    Duration growth = 0, span = 0;
+    Duration uneven = 0;  ///< by how much it differs between halves
+
+    double rate() const {  ///< of record times against stamps
+      return 1.0 + static_cast<double>(growth) / static_cast<double>(span);
+    }
+  };
+  static std::optional<LatencyGrowth> growth_of(const Seen& each);
   static std::optional<Duration> latency_without_scan(Role role, const RecordingPlan& plan);
   std::optional<Duration> corrected_latency(Role role, const RecordingPlan& plan) const;
   std::optional<std::array<double, kRoleCount>> corrected_latencies(

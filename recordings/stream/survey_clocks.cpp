@@ -99,9 +99,8 @@ std::optional<Duration> RecordingSurvey::latency_without_scan(Role role,
   return latency;
 }
 
-/// By how much faster record times run than the stamps, where latencies grow evenly; nothing where
-/// they do not, and of few messages.
-std::optional<double> RecordingSurvey::record_rate_of(const Seen& each) {
+/// By how much latencies grow; nothing of few messages.
+std::optional<RecordingSurvey::LatencyGrowth> RecordingSurvey::growth_of(const Seen& each) {
   constexpr std::size_t kLeast = 10;  // messages of each third
   const std::size_t third = each.stamps.size() / 3;
   if (each.unstamped || third < kLeast || stamps_stand(each.stamps)) return std::nullopt;
@@ -115,33 +114,32 @@ std::optional<double> RecordingSurvey::record_rate_of(const Seen& each) {
     latency[i] = part(each.latencies);
     stamp[i] = part(each.stamps);
   }
-  const Duration growth = latency[2] - latency[0], span = stamp[2] - stamp[0];
-  const Duration uneven = std::abs(latency[2] - 2 * latency[1] + latency[0]);
-  if (span <= 0 || std::abs(growth) < kMaxLatencyDifference || 4 * uneven > std::abs(growth)) {
-    return std::nullopt;
-  }
-  const double rate = 1.0 + static_cast<double>(growth) / static_cast<double>(span);
-  return rate > 0.0 ? std::optional(rate) : std::nullopt;
+  const LatencyGrowth found = {latency[2] - latency[0], stamp[2] - stamp[0],
+                               std::abs(latency[2] - 2 * latency[1] + latency[0])};
+  return found.span > 0 && found.rate() > 0.0 ? std::optional(found) : std::nullopt;
 }
 
+/// Of the topic with the longest part seen, since of dense ones it is short; the others agree.
 std::optional<double> RecordingSurvey::record_rate() const {
   std::map<std::string, double> rates;  // by topic
-  const Seen* densest = nullptr;
-  std::optional<double> best;
+  LatencyGrowth longest;
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     const std::string& topic = topic_of(topics_, static_cast<Role>(i));
     if (topic.empty() || seen_[i].stamps.empty()) continue;
-    const auto rate = record_rate_of(seen_[i]);
-    if (!rate) return std::nullopt;
-    rates[topic] = *rate;
-    if (densest != nullptr && densest->stamps.size() >= seen_[i].stamps.size()) continue;
-    densest = &seen_[i];
-    best = rate;
+    const auto growth = growth_of(seen_[i]);
+    if (!growth) return std::nullopt;
+    rates[topic] = growth->rate();
+    if (growth->span > longest.span) longest = *growth;
   }
-  const bool agree = std::ranges::all_of(rates | std::views::values, [&best](double each) {
-    return 4.0 * std::abs(each - *best) < std::abs(*best - 1.0);
+  if (rates.size() < 2 || std::abs(longest.growth) < kMaxLatencyDifference ||
+      4 * longest.uneven > std::abs(longest.growth)) {
+    return std::nullopt;
+  }
+  const double best = longest.rate();
+  const bool agree = std::ranges::all_of(rates | std::views::values, [best](double each) {
+    return 4.0 * std::abs(each - best) < std::abs(best - 1.0);
   });
-  return rates.size() > 1 && agree ? best : std::nullopt;
+  return agree ? std::optional(best) : std::nullopt;
 }
 
 /// Record time minus the stamp that the configured delay corrects.
@@ -151,9 +149,9 @@ std::optional<Duration> RecordingSurvey::corrected_latency(Role role,
   return latency ? std::optional(*latency + from_seconds(delay_of(config_, role))) : std::nullopt;
 }
 
-/// Record time minus corrected stamp by role [s], where the record times show that clocks differ:
-/// then delays correct clocks, and messages arrive when they are recorded. Roles that do not tell
-/// have the largest.
+/// Arrival minus corrected stamp by role [s], where the record times show that clocks differ: then
+/// delays correct clocks, and messages arrive at their corrected stamps, also where arrivals are
+/// shifted already. Roles that do not tell have the largest.
 std::optional<std::array<double, kRoleCount>> RecordingSurvey::corrected_latencies(
     const RecordingPlan& plan) const {
   std::map<std::size_t, double> corrected;
@@ -163,7 +161,7 @@ std::optional<std::array<double, kRoleCount>> RecordingSurvey::corrected_latenci
     const auto latency = latency_without_scan(role, plan);
     if (!latency || role == Role::kTruth || plan.leaps[i]) continue;
     latencies.push_back(*latency);
-    corrected[i] = to_seconds(*latency) + delay_of(config_, role);
+    corrected[i] = to_seconds(*latency + plan.arrival_shift) + delay_of(config_, role);
   }
   if (latencies.empty()) return std::nullopt;
   const auto [least, most] = std::ranges::minmax(latencies);
@@ -179,11 +177,15 @@ void RecordingSurvey::decide_waits(RecordingPlan& plan) const {
   std::array<double, kRoleCount> delays{};
   double smallest = 0.0, largest = 0.0;
   bool any = false;
+  // Where arrivals are shifted, they are so by the delay of the reference too.
+  const Role reference =
+      plan.latency[static_cast<std::size_t>(Role::kImu)] ? Role::kImu : Role::kLidar;
+  const double shifted = plan.arrival_shift != 0 ? delay_of(config_, reference) : 0.0;
   for (std::size_t i = 0; i < kRoleCount; ++i) {
     const Role role = static_cast<Role>(i);
     if (role == Role::kTruth || topic_of(topics_, role).empty()) continue;
     if (plan.stamped_by_record[i]) return;  // a later record time would be a later stamp
-    delays[i] = delay_of(config_, role);
+    delays[i] = delay_of(config_, role) - shifted;
     smallest = any ? std::min(smallest, delays[i]) : delays[i];
     largest = any ? std::max(largest, delays[i]) : delays[i];
     any = true;

@@ -58,6 +58,7 @@ TEST(BagWarnings, WhatReadingSaysOfAClockIsNotContradicted) {
       "/imu: stamps are 10.001 s behind those of /odom, /points, which agree: set "
       "recording.imu_delay=-10.001 if its clock differs"};
   EXPECT_EQ(advices(info, "_delay="), 0U);
+  EXPECT_EQ(advices(info, "such messages are dropped"), 1U);
   info.notes = {"/imu: stamps do not advance from message to message: record times are used"};
   EXPECT_EQ(advices(info, "such messages are dropped"), 0U);
 }

@@ -23,6 +23,7 @@ struct Fault {
   std::function<void(ImuSample&)> of_imu = [](ImuSample&) {};
   std::optional<int> idle = std::nullopt;    ///< a foot that never stands
   std::optional<int> frozen = std::nullopt;  ///< a leg whose angles stand still
+  bool unknown = false;                      ///< its angles are no numbers
   bool differenced = false;
   std::array<bool, kLegCount> without_contacts{};
 };
@@ -54,12 +55,15 @@ std::vector<ReadingWarning> warnings_of(const Fault& fault) {
       StandingFoot foot = {leg, place, slip - velocity - turning.cross(place)};
       fault.of_foot(foot);
       feet.push_back(foot);
-      stated -= 0.5 * (foot.velocity + imu.angular_velocity.cross(foot.position));
+      stated -= foot.velocity + imu.angular_velocity.cross(foot.position);
     }
+    stated /= static_cast<double>(feet.size());
     std::array<double, kJointCount> angles{};
     for (int k = 0; k < kJointCount; ++k)
       angles[static_cast<std::size_t>(k)] = k / 3 == fault.frozen ? 0.8 : time;
-    check.add_joints(angles);
+    std::array<bool, kLegCount> unknown{};
+    if (fault.frozen) unknown[static_cast<std::size_t>(*fault.frozen)] = fault.unknown;
+    check.add_joints(angles, unknown);
     check.add_feet(feet, stated, fault.differenced);
   }
   return check.warnings();
@@ -111,6 +115,18 @@ TEST(LegCheck, AFootThatNeverStandsAndALegWhoseAnglesStandStillAreNamed) {
   EXPECT_EQ(text_of(warnings_of({.idle = 2, .without_contacts = {false, false, true, false}})), "")
       << "said before";
   expect_named({.frozen = 1}, "the joint angles of FR do not change while the robot walks");
+  EXPECT_EQ(text_of(warnings_of({.frozen = 1, .unknown = true})), "");
+}
+
+TEST(LegCheck, AFootThatNeverStandsHidesNoOtherFault) {
+  Fault fault = {.of_imu = [](ImuSample& imu) { imu.angular_velocity *= -1.0; }, .idle = 2};
+  const std::string text = text_of(warnings_of(fault));
+  fault.without_contacts[2] = true;
+  EXPECT_NE(text.find("no contact of RL while the robot walks"), std::string::npos) << text;
+  EXPECT_NE(text.find(text_of(warnings_of(fault))), std::string::npos) << text;
+  EXPECT_NE(text.find("z of the gyro or all joints have the wrong sign"), std::string::npos)
+      << text;
+  EXPECT_EQ(warnings_of({.idle = 2}).size(), 1U) << text_of(warnings_of({.idle = 2}));
 }
 
 TEST(LegCheck, DifferencesOfAnglesTellNoSlope) {

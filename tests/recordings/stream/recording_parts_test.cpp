@@ -7,6 +7,7 @@
 #include "recordings/frames/frame_tree.hpp"
 #include "recordings/legs/leg_names.hpp"
 #include "recordings/recording_config.hpp"
+#include "recordings/stream/latency_trend.hpp"
 #include "tests/recordings/stream/recorded_deliveries.hpp"
 
 namespace aims {
@@ -34,12 +35,27 @@ TEST(ScanPeriod, OfOneCloudIsTheRateNearestToItsSpan) {
   EXPECT_EQ(scan_period({}, std::nullopt), std::nullopt);
 }
 
+TEST(LatencyTrend, GrowsByTheSecondsThatPassAndTellsNothingOfNone) {
+  LatencyTrend lidar, imu;
+  EXPECT_EQ(lidar.step(imu), std::nullopt);
+  EXPECT_EQ(lidar.growth(imu), std::nullopt);
+  for (int second = 0; second < 120; second += 4) {  // the others are missing
+    lidar.add(second * kSecond, 0);
+    imu.add(second * kSecond, second * 10 * kMillisecond);
+  }
+  EXPECT_NEAR(imu.growth(lidar).value_or(0.0), 0.01, 1e-9);
+}
+
 TEST(ScanPeriod, OfALidarThatIsBlindBehindIsLongerThanItsSpan) {
   constexpr Duration kMs = kMillisecond;
   EXPECT_EQ(scan_period({0, 100 * kMs, 200 * kMs, 400 * kMs}, 50 * kMs, 0.5), 100 * kMs);
   EXPECT_EQ(scan_period({0, 200 * kMs, 400 * kMs}, 50 * kMs, 0.5), 100 * kMs);
   // Blind in the middle of the scan: its span is a whole turn.
   EXPECT_EQ(scan_period({0, 100 * kMs, 200 * kMs, 400 * kMs}, 99 * kMs, 0.5), 100 * kMs);
+  // Of a narrow LiDAR that does not turn.
+  EXPECT_EQ(scan_period({0, 200 * kMs, 400 * kMs}, 99 * kMs, 0.2), 100 * kMs);
+  EXPECT_EQ(scan_period({0, 80 * kMs, 190 * kMs, 310 * kMs, 400 * kMs}, 50 * kMs, 0.5), 100 * kMs)
+      << "stamps that jitter";
   EXPECT_EQ(usual_spacing({0, 100, 200, 400}, 100), 100);
   EXPECT_EQ(usual_spacing({0, 200, 400, 800}, 100), 200);
 }
