@@ -119,9 +119,11 @@ class Session {
         .clocks = &clocks,
         .transforms = &transforms_,
         .check_setup = [&](const RecordingSetup& setup) { return check_topics(config_, setup); },
-        .waiting = [&](const std::string& missing) { tell_waiting(missing); }};
+        .waiting = [&](const std::string& missing) { tell_waiting(missing); },
+        .record_again = {}};
     if (!options_.record.empty()) {
       live.observer = [&](const BagMessage& message) { recorder->add(message); };
+      live.record_again = [&] { recorder->begin_again(); };
     }
     auto opened = open_live_recording(transport_, commands_, live);
     if (!opened || !*opened) {
