@@ -14,6 +14,7 @@ import signal
 import socket
 import subprocess
 import sys
+import threading
 import time
 import unittest
 import urllib.request
@@ -26,6 +27,7 @@ SCENARIO = os.path.join(os.path.dirname(FOLDER), "walk.yaml")  # standing, then 
 TOPICS = ["--set", "recording.topics.lidar=/lidar/points"]
 PATIENCE_S = 60  # with a loaded machine
 domains = itertools.count(os.getpid())
+rosbag_lock = threading.Lock()
 
 
 def own_domain():
@@ -153,7 +155,8 @@ def altered(name, change):
     latched."""
     import rosbag
 
-    with rosbag.Bag("walk.bag") as source, rosbag.Bag(name, "w") as target:
+    # The types that rosbag makes of definitions are for one thread.
+    with rosbag_lock, rosbag.Bag("walk.bag") as source, rosbag.Bag(name, "w") as target:
         for topic, message, stamp in source.read_messages():
             changed = change(topic, message, stamp)
             if changed:
