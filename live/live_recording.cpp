@@ -152,8 +152,10 @@ class Gathering {
     LiveSource(std::make_shared<LiveMessages>(std::move(forgotten)), {}).show(options_.observer);
   }
 
-  /// The clock of arrivals was set back: what came before lies in its future.
+  /// The clock of arrivals was set back: what came before lies in its future, as does what the
+  /// observer has seen of it.
   void begin_again(Time now) {
+    if (std::exchange(forgot_, false) && options_.record_again) options_.record_again();
     std::erase_if(*messages_, [](const LiveMessage& message) { return !lasts(message); });
     for (LiveMessage& message : *messages_) message.arrival = now;
   }

@@ -30,6 +30,8 @@ struct LiveRecordingOptions {
   std::function<Result<void>(const RecordingSetup& setup)> check_setup;
   /// Called every few seconds with what is missing.
   std::function<void(const std::string&)> waiting;
+  /// Called where what the observer saw counts no longer: the clock of arrivals was set back.
+  std::function<void()> record_again;
 };
 
 /// Gathers all topics of the network until topics, units and extrinsics can be decided as for a bag

@@ -25,14 +25,11 @@ namespace {
 namespace fs = std::filesystem;
 
 Result<void> check_topics(const LiveConfig& config, const RecordingSetup& setup) {
-  if (!requirements_of(config.estimator, config.estimators).legs || setup.has_legs) return {};
+  if (!requirements_of(config.estimator, config.estimators).legs) return {};
+  const auto ok = check_legs(setup, config.estimator, "--set recording.topics.leg_odometry=/...");
+  if (ok || !setup.contacts_unknown) return ok;
   // Loads of feet that stand still tell nothing.
-  const bool learned = setup.leg_lack.find("learned") != std::string::npos;
-  return failure(fmt::format(
-      "{}estimator {} needs leg odometry, which is not found{}; name its topic (--set "
-      "recording.topics.leg_odometry=/...), or use an estimator without legs (--estimator lio)",
-      learned ? "let the robot walk: " : "", config.estimator,
-      setup.leg_lack.empty() ? "" : fmt::format(" ({})", setup.leg_lack)));
+  return failure("let the robot walk: " + ok.error().message);
 }
 
 /// Whether it spoils the estimate; of an estimator whose needs are not known, all do.
@@ -119,9 +116,11 @@ class Session {
         .clocks = &clocks,
         .transforms = &transforms_,
         .check_setup = [&](const RecordingSetup& setup) { return check_topics(config_, setup); },
-        .waiting = [&](const std::string& missing) { tell_waiting(missing); }};
+        .waiting = [&](const std::string& missing) { tell_waiting(missing); },
+        .record_again = {}};
     if (!options_.record.empty()) {
       live.observer = [&](const BagMessage& message) { recorder->add(message); };
+      live.record_again = [&] { recorder->begin_again(); };
     }
     auto opened = open_live_recording(transport_, commands_, live);
     if (!opened || !*opened) {

@@ -3,9 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <system_error>
 #include <utility>
-
-#include "recordings/source/recording_file.hpp"
 
 namespace aims {
 
@@ -18,11 +17,18 @@ Result<Recorder> Recorder::create(const std::filesystem::path& file, MessageForm
     return failure(
         fmt::format("{}: expected a name that ends in {}", file.string(), cdr ? ".mcap" : ".bag"));
   }
-  auto sink = create_recording(file, wanted);
-  if (!sink) return tl::unexpected(sink.error());
-  recorder.sink_ = std::move(*sink);
-  recorder.converter_.emplace("live topics", *recorder.sink_);
+  recorder.file_ = file;
+  recorder.kind_ = wanted;
+  if (auto ok = recorder.open(); !ok) return tl::unexpected(ok.error());
   return recorder;
+}
+
+Result<void> Recorder::open() {
+  auto sink = create_recording(file_, kind_);
+  if (!sink) return tl::unexpected(sink.error());
+  sink_ = std::move(*sink);
+  converter_.emplace("live topics", *sink_);
+  return {};
 }
 
 void Recorder::add(const BagMessage& message) {
@@ -35,8 +41,18 @@ void Recorder::add(const BagMessage& message) {
   state_ = converter_->write(own);
 }
 
+void Recorder::begin_again() {
+  if (file_.empty()) return;
+  converter_.reset();
+  sink_.reset();
+  connections_.clear();
+  std::error_code code;
+  std::filesystem::remove(file_, code);  // it is of this recorder; `open` replaces none
+  state_ = open();
+}
+
 Result<void> Recorder::close() {
-  if (!sink_) return {};
+  if (!sink_) return state_;
   const auto closed = sink_->close();
   return state_ ? closed : state_;
 }

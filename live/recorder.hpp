@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "recordings/bag/message_sink.hpp"
 #include "recordings/source/conversion.hpp"
+#include "recordings/source/recording_file.hpp"
 
 namespace aims {
 
@@ -25,6 +26,9 @@ class Recorder {
   /// Errors are kept for `close`: a full disk must not end the estimate.
   void add(const BagMessage& message);
 
+  /// Empties the file; errors as those of `add`.
+  void begin_again();
+
   /// The first error of `add`: from then on nothing is recorded.
   const Result<void>& state() const { return state_; }
 
@@ -32,6 +36,10 @@ class Recorder {
   Result<void> close();
 
  private:
+  Result<void> open();
+
+  std::filesystem::path file_;  ///< empty: nothing is written
+  RecordingFormat kind_ = RecordingFormat::kMcap;
   std::unique_ptr<MessageSink> sink_;
   std::optional<MessageConverter> converter_;
   /// By topic, type and its sum: ids of the messages are those of their sources.

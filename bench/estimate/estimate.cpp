@@ -228,7 +228,8 @@ Result<void> check_topics(const EstimateConfig& config, const RecordingSetup& se
                           const std::string& recording) {
   for (const std::string& text : config.run) {
     if (!requirements_of(text, config.estimators).legs) continue;
-    if (auto ok = check_legs(setup, label_of(text), recording); !ok) return ok;
+    const auto ok = check_legs(setup, label_of(text), "--topics leg_odometry=/...");
+    if (!ok) return failure(fmt::format("{}: {}", recording, ok.error().message));
   }
   return {};
 }

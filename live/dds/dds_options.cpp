@@ -33,7 +33,7 @@ std::string is_node_name(const std::string& name) {
                       std::isdigit(static_cast<unsigned char>(name.front())) == 0;
   return fits && joined
              ? ""
-             : fmt::format("expected at most {} letters, digits and _, e.g. aims, got '{}'",
+             : fmt::format("expected at most {} letters, digits, _ and /, e.g. aims, got '{}'",
                            kLongestNode, name);
 }
 

@@ -94,8 +94,8 @@ Time DdsTransport::arrival_of(Time sent, bool latching) {
   const bool of_player = std::abs(now - sent) > kOwnClock;
   // A latched message may have been sent by this computer's clock long ago.
   if (latching) return of_player && played_ == 0 ? std::max<Time>(sent, 1) : played_.load();
-  if (of_player) played_ = std::max<Time>(sent, 1);
-  return played_;
+  if (!of_player) return played_;
+  return played_ = std::max<Time>(sent, 1);  // not what another thread stores meanwhile
 }
 
 /// Called by DDS, in its own threads, when a reader has data.

@@ -50,6 +50,9 @@ class LegSurvey {
   const JointRule& joint_rule() const { return joint_rule_; }
   /// Why there is no leg odometry, as far as it is known.
   const std::string& lack() const { return lack_; }
+  /// Whether there is none since no contacts can be learned from the loads, as before the first
+  /// steps.
+  bool contacts_unknown() const { return contacts_unknown_; }
 
   /// Adds the feet of a topic of leg odometry that has them.
   void add_feet(const MessageView& message, const StateLayout& state);
@@ -61,7 +64,7 @@ class LegSurvey {
 
   /// How contacts are read; appends assumptions to `notes`, as all below. Error for loads from
   /// which no thresholds can be learned.
-  Result<ContactRule> decide_contacts(ReadingNotes& notes) const;
+  Result<ContactRule> decide_contacts(ReadingNotes& notes);
 
   /// Whether contacts are published only when they change: then the last ones hold, with a warning.
   bool contacts_hold(ReadingNotes& notes) const;
@@ -109,6 +112,7 @@ class LegSurvey {
   LegOrderFinder order_finder_;
   bool feet_unnamed_ = false;
   std::string lack_;
+  bool contacts_unknown_ = false;
   int effort_messages_ = 0;
   int contact_messages_ = 0;
   int repeated_contacts_ = 0;  ///< messages whose contacts are those of the one before

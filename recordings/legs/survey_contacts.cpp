@@ -216,11 +216,12 @@ Result<ContactRule> LegSurvey::with_signs(ContactRule rule, ReadingNotes& notes)
   return rule;
 }
 
-Result<ContactRule> LegSurvey::decide_contacts(ReadingNotes& notes) const {
+Result<ContactRule> LegSurvey::decide_contacts(ReadingNotes& notes) {
   auto rule = rule_of_loads(notes);
   if (topics_.contacts.empty() || contact_messages_ == 0) return rule;
   const std::string offset = rule ? "" : offset_text(ranges_of_loads());
   if (!offset.empty()) return failure(offset);
+  contacts_unknown_ = !rule;
   if (!rule) return rule;
   rule = with_signs(std::move(*rule), notes);
   if (!rule) return rule;

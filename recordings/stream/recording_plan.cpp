@@ -254,6 +254,7 @@ void warn_of_single_legs(MessageSource& bag, RecordingSetup& setup) {
   const std::string text = single_legs_text(bag.connections());
   if (text.empty()) return;
   setup.leg_lack = text;
+  setup.contacts_unknown = false;
   setup.warnings.push_back({"legs in messages of their own", text, WarnedSensor::kLegs});
 }
 

@@ -566,12 +566,12 @@ Result<RecordingReader> RecordingReader::open_source(std::unique_ptr<MessageSour
 }
 
 Result<void> check_legs(const RecordingSetup& setup, const std::string& estimator,
-                        const std::string& recording) {
+                        const std::string& naming) {
   if (setup.has_legs) return {};
   return failure(fmt::format(
-      "{}: estimator {} needs leg odometry, which is not found{}; name its topic "
-      "(--topics leg_odometry=/...), or use an estimator without legs, e.g. lio",
-      recording, estimator, setup.leg_lack.empty() ? "" : fmt::format(" ({})", setup.leg_lack)));
+      "estimator {} needs leg odometry, which is not found{}; name its topic ({}), or use an "
+      "estimator without legs, e.g. lio",
+      estimator, setup.leg_lack.empty() ? "" : fmt::format(" ({})", setup.leg_lack), naming));
 }
 
 Result<bool> RecordingReader::advance(Duration span, std::vector<Delivery>& deliveries) {

@@ -34,12 +34,14 @@ struct RecordingSetup {
   std::vector<std::string> notes;
   /// Assumptions that decide the result, and faults that spoil it; what changes midway is added.
   std::vector<ReadingWarning> warnings;
-  std::string leg_lack;  ///< why there are no legs, as far as it is known
+  std::string leg_lack;           ///< why there are no legs, as far as it is known
+  bool contacts_unknown = false;  ///< of legs that lack: the loads of the feet tell none yet
 };
 
-/// Error when the recording has no legs, which `estimator` needs; the error calls it `recording`.
+/// Error when there are no legs, which `estimator` needs. `naming` is how a topic of legs is named,
+/// such as "--topics leg_odometry=/...".
 Result<void> check_legs(const RecordingSetup& setup, const std::string& estimator,
-                        const std::string& recording);
+                        const std::string& naming);
 
 /// A recording as the stream of an estimator: messages become deliveries, in order of record time.
 /// Stamps are those of the message headers, arrivals the record times. Memory is bounded by the

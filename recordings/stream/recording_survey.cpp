@@ -184,6 +184,7 @@ void RecordingSurvey::decide_legs(RecordingPlan& plan) {
   plan.setup.leg_rate_hz = rate_of(kinematic ? Role::kJoints : Role::kLegs, plan);
   plan.joints = legs_.joint_rule();
   plan.setup.leg_lack = legs_.lack();
+  plan.setup.contacts_unknown = legs_.contacts_unknown();
   plan.setup.has_legs = stream.source != LegSource::kNone;
   // Samples of feet have no angles.
   plan.setup.has_joints = stream.source != LegSource::kFeet && legs_.has_joints_and_contacts();

@@ -49,7 +49,8 @@ TEST(DdsOptions, ANodeNameFitsATopicOfDds) {
     testing::internal::CaptureStderr();
     const std::string name(static_cast<std::size_t>(length), 'a');
     EXPECT_EQ(run_program(app, {"--node", name}, [] { return Result<void>(); }), code);
-    testing::internal::GetCapturedStderr();
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(said.find("letters, digits, _ and /") != std::string::npos, code != 0) << said;
   }
 }
 

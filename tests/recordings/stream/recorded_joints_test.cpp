@@ -200,6 +200,8 @@ TEST_F(RecordedTrot, AFootWhoseLoadTellsNothingIsLeftOut) {
   EXPECT_NEAR(speed(one), speed(read({}, config)), 0.05);
   const Recording two = read({.dead = {1, 2}}, config);
   EXPECT_NE((two.error + two.setup.leg_lack).find("contact_threshold"), std::string::npos);
+  EXPECT_TRUE(two.setup.contacts_unknown);
+  EXPECT_FALSE(one.setup.contacts_unknown);
 }
 
 TEST_F(RecordedTrot, LegsInMessagesOfTheirOwnAreNamed) {
@@ -220,6 +222,7 @@ TEST_F(RecordedTrot, WithoutContactsTheirTopicIsAskedFor) {
   const Recording none = read({.forces = false});
   EXPECT_NE(none.setup.leg_lack.find("--topics contacts=/..."), std::string::npos)
       << none.setup.leg_lack;
+  EXPECT_FALSE(none.setup.contacts_unknown) << "no steps tell what has no topic";
   EXPECT_NE(none.setup.leg_lack.find("torques of the knees (--topics contacts=/joint_states)"),
             std::string::npos)
       << none.setup.leg_lack;
