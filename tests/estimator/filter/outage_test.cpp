@@ -21,7 +21,8 @@ Belief walking() {
 double sigma(const Belief& belief, int index) { return std::sqrt(belief.covariance(index, index)); }
 
 TEST(Outage, OnlyLongSegmentsWithoutSamplesCount) {
-  InertialSegment segment{.begin = 0, .end = from_seconds(2.0 * kLongestBridge)};
+  InertialSegment segment;
+  segment.end = from_seconds(2.0 * kLongestBridge);
   EXPECT_FALSE(is_outage(segment));
   segment.measured = false;
   EXPECT_TRUE(is_outage(segment));
