@@ -72,7 +72,11 @@ std::string wrong_sign(int axis) {
 }
 
 std::string cause_of(const Eigen::Matrix3d& P) {
-  if (P.determinant() > 0.0) return turn_text("the IMU is turned", P);
+  if (P.determinant() > 0.0) {
+    const bool about_z = P.diagonal() == Eigen::Vector3d(-1.0, -1.0, 1.0);
+    return turn_text("the IMU is turned", P) +
+           (about_z ? ", or z of the clouds is mirrored, which no mount corrects" : "");
+  }
   if (P.isDiagonal()) {
     std::vector<std::string> signs;
     for (int axis = 0; axis < 3; ++axis) {
