@@ -28,13 +28,11 @@ bool any_holds(const std::vector<std::string>& texts, std::string_view part) {
 
 /// Which keys of the truth have no effect beside the others.
 void describe_idle(Fields& f, const DatasetTruth& truth) {
-  const bool by_file = !truth.files.empty() || std::ranges::any_of(truth.cases, [](const auto& c) {
-    return !c.files.empty();
-  });
   std::vector<std::string> patterns = truth.files;
   for (const TruthCase& each : truth.cases) {
     patterns.insert(patterns.end(), each.files.begin(), each.files.end());
   }
+  const bool by_file = !patterns.empty();
   patterns.insert(patterns.end(), truth.lever_arm_files.begin(), truth.lever_arm_files.end());
   f.idle_if(!any_holds(patterns, "{name}"), "no file has {name}", {"name_without"});
   f.idle_if(truth.end_pose.empty(), "end_pose is empty", {"end_pose_of"});

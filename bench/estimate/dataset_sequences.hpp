@@ -30,10 +30,10 @@ Result<std::vector<DatasetSequence>> dataset_sequences(const DatasetProfile& pro
 /// What decides the result of a sequence besides the code: its files with size and time.
 std::string fingerprint(const DatasetSequence& sequence);
 
-/// How the sequence is scored: its truth, and how the estimates are moved to it; a line each.
 /// The file of the truth, or its topic.
 std::string truth_text(const DatasetProfile& profile, const DatasetSequence& sequence);
 
+/// How the sequence is scored: its truth, and how the estimates are moved to it; a line each.
 std::vector<std::string> scoring_notes(const DatasetProfile& profile,
                                        const DatasetSequence& sequence);
 

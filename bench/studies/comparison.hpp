@@ -56,8 +56,8 @@ struct Comparison {
   std::vector<std::string> only_after;
   /// "scenario, estimator" with valid runs before, none of which has a valid one after.
   std::vector<std::string> not_compared;
-  /// As `only_before`, where the estimator fails after and not before, and the reverse: such runs are lost
-  /// successes, and have no other scores.
+  /// As `only_before`, where the estimator fails after and not before, and the reverse: such runs
+  /// are lost successes, and have no other scores.
   std::vector<std::string> fails_now;
   std::vector<std::string> fails_no_more;
   /// "after: scenario, estimator, seed 1,2" where an estimate leaves a part of the run out, by a

@@ -21,12 +21,6 @@ using test::RobotRecording;
 
 class AssumedInputs : public test::RecordingTest {
  protected:
-  static bool warns(const RecordingSetup& setup, const std::string& part) {
-    return std::ranges::any_of(setup.warnings, [&](const ReadingWarning& each) {
-      return each.text.find(part) != std::string::npos;
-    });
-  }
-
   /// A robot with that topic of nav_msgs/Odometry.
   Recording with_odometry(const std::string& topic, const RecordingConfig& config = {}) {
     std::filesystem::remove(bag());

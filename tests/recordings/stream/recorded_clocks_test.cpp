@@ -20,14 +20,7 @@ using test::kStart;
 using test::Recording;
 using test::RobotRecording;
 
-class RecordedClocks : public test::RecordingTest {
- protected:
-  static bool warns(const RecordingSetup& setup, const std::string& part) {
-    return std::ranges::any_of(setup.warnings, [&](const ReadingWarning& each) {
-      return each.text.find(part) != std::string::npos;
-    });
-  }
-};
+class RecordedClocks : public test::RecordingTest {};
 
 TEST_F(RecordedClocks, ATruthOfAnotherClockIsAWarning) {
   for (const Duration ahead : {Duration{0}, 18 * kSecond}) {

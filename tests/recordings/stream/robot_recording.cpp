@@ -104,13 +104,17 @@ void RobotRecording::close() {
   EXPECT_TRUE(ok) << ok.error().message;
 }
 
+bool RecordingTest::warns(const RecordingSetup& setup, const std::string& part) {
+  return std::ranges::any_of(setup.warnings, [&](const ReadingWarning& each) {
+    return each.text.find(part) != std::string::npos;
+  });
+}
+
 bool Recording::noted(const std::string& part) const {
   return std::any_of(
              setup.notes.begin(), setup.notes.end(),
              [&](const std::string& note) { return note.find(part) != std::string::npos; }) ||
-         std::ranges::any_of(setup.warnings, [&](const ReadingWarning& each) {
-           return each.text.find(part) != std::string::npos;
-         });
+         RecordingTest::warns(setup, part);
 }
 
 Recording read_recording(const std::filesystem::path& file, const RecordingConfig& config) {

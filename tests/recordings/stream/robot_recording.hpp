@@ -69,6 +69,10 @@ class RobotRecording {
 
 /// A test with a place for its bag.
 class RecordingTest : public ::testing::Test {
+ public:
+  /// Whether the text of a warning holds `part`.
+  static bool warns(const RecordingSetup& setup, const std::string& part);
+
  protected:
   std::filesystem::path bag() const { return folder_.path() / "robot.bag"; }
   TemporaryFolder folder_;
