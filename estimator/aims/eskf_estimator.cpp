@@ -134,8 +134,8 @@ void EskfEstimator::coast() {
 HealthRow EskfEstimator::judged_health() {
   judged_ = queue_.now();
   if (!started_) return health_.judge(*judged_, queue_.inputs(), std::nullopt);
-  // Soft joints degrade the estimate by a reason of their own: their deviation is a bound, by which
-  // no estimate becomes invalid.
+  // Soft joints degrade health for a reason of their own. The deviation that they add is an upper
+  // bound, so it must not make an estimate invalid.
   HealthEstimate estimate = health_estimate(belief_);
   estimate.soft_leg_sigma = sigma_of_soft_legs();
   HealthRow row = health_.judge(*judged_, queue_.inputs(), estimate);
@@ -247,8 +247,9 @@ std::vector<LearnedQuantity> EskfEstimator::learned() const {
   return robot_.learned(belief_, feet_.compliance());
 }
 
-/// Whether leg packets mean what they will mean to the end. Until the compliance of the joints is
-/// learned, scale and bias would be those of other legs, and take the drift that shows it.
+/// Whether the errors of the legs are those that they will have to the end. A scale that is learned
+/// before the compliance of the joints would be wrong later, and hide the height drift from which
+/// the compliance is learned.
 bool EskfEstimator::legs_are_final() const {
   return !last_leg_ || !feet_.applies(*last_leg_) || feet_.compliance().is_learned();
 }

@@ -112,7 +112,7 @@ class EskfEstimator : public Estimator, public MotionSource {
   bool levelled_ = false;       ///< by level ground, at least once
   Time last_pose_ = 0;          ///< of the newest pose, or of the start
   Time last_correction_ = 0;    ///< stamp of the newest, or of the start
-  std::optional<Time> judged_;  ///< arrival
+  std::optional<Time> judged_;  ///< arrival at which health was judged last
   Belief belief_;
   /// With `cross_validation`, until the leg scale is known: a belief that takes all information of
   /// a scan. Scans are mapped from it, where they fit the map, and not from an estimate that
@@ -123,7 +123,7 @@ class EskfEstimator : public Estimator, public MotionSource {
   StrideMeans stride_means_;
   LegVelocity velocity_;  ///< reported last
   VelocityNoise velocity_noise_;
-  MotionVariance taken_by_legs_;          ///< from the covariance since the last scan
+  MotionVariance taken_by_legs_;          ///< variance that legs removed since the last scan
   double silence_ = 0.0;                  ///< of IMU and LiDAR until now [s]
   double outage_ = 0.0;                   ///< the longest since a heading was found, or 0 [s]
   double leg_innovation_ = kNotComputed;  ///< norm of the last one [m/s]

@@ -9,8 +9,8 @@
 namespace aims {
 namespace {
 
-/// Noise of the legs until their scale is known, 0.1 m/s and 5 %: large enough that the error of the
-/// scale does not keep scans from fitting each other (docs/decisions.md).
+/// Noise of the legs until their scale is known, 0.1 m/s and 5 %: large enough that the error of
+/// the scale does not keep scans from fitting each other (docs/decisions.md).
 const LegConfig kLegsOfUnknownScale;
 
 /// Without a scan for longer, nothing but the legs may measure the velocity.
@@ -133,14 +133,14 @@ void EskfEstimator::fuse_standing(const Eigen::Vector3d& rate) {
   accept(*mapping_, fuse(*mapping_, not_turning(*mapping_), without_legs));
 }
 
-/// Only with the final compliance of the joints: before, a scale would be that of other legs.
+/// Only with the final compliance of the joints: a scale learned before would be wrong later.
 bool EskfEstimator::scans_measure_scale_of_feet() const {
   return feet_.compliance().is_learned() && lidar_update_.constrains_all_directions() &&
          last_scan_ && time_ - *last_scan_ < kScanIsRecent;
 }
 
-/// By how much the variance of the scale of feet is larger than that of the belief, relative to it,
-/// since joints are soft. In the belief it would move the estimate without a measurement.
+/// Relative excess of the variance of the feet's scale over that of the belief, because joints are
+/// soft. It is only stated: in the belief it would move the estimate without a measurement.
 double EskfEstimator::excess_of_soft_joints() const {
   if (!last_leg_ || !feet_.applies(*last_leg_) || robot_.judges_legs()) return 0.0;
   const double sigma = feet_scale_sigma(feet_.compliance().part_of_way()) / kFeetScaleSigma;

@@ -8,9 +8,9 @@
 
 namespace aims {
 
-/// Scale of the legs from the way that they and the IMU make of a walk, without what scans say
-/// along it, against the way that scans show. It is what a place without features needs: there the
-/// legs weigh feet by a velocity that nothing else corrects, and the IMU pulls on it.
+/// Scale of the legs: the distance that legs and IMU measure over the distance that scans measure.
+/// In the first, scans correct nothing along the path, as in a featureless corridor, where feet are
+/// weighed by a velocity that legs and IMU alone determine.
 class LegComparison {
  public:
   /// Adds the states at the end of a scan, `dt` [s] after the last one: by legs alone along the

@@ -132,7 +132,7 @@ class LidarUpdate {
   CalibrationModel calibration_;          ///< of the present scan
   ScanPart part_;                         ///< of it that update() fuses
   MatchInformation scan_;                 ///< the present scan at the last linearization
-  NominalState predicted_;                ///< for it, by the belief of update()
+  NominalState predicted_;                ///< what update() matched the scan from
   NominalState matched_at_;               ///< where its matches were linearized last
   CrossValidationConfig cross_validation_;
   bool holds_legs_ = false;

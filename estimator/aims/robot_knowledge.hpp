@@ -27,7 +27,7 @@ class RobotKnowledge {
 
   /// The first belief with what is known of mount, delay and biases.
   Belief at_start(Belief belief);
-  /// The belief with what is known of legs that are measured so; call at the first packet.
+  /// The belief with the known calibration of legs, by feet or as reported; for the first packet.
   Belief at_first_legs(Belief belief, bool by_feet);
   bool legs_are_known() const { return legs_known_; }
 

@@ -33,7 +33,7 @@ struct ScanDiagnostics {
   double C_IL = kNotComputed;                  ///< eq. (6), 6-D pose block, as D_k uses it
   double C_IL_imu = kNotComputed;              ///< against the IMU alone since the last scan
   double C_IL_imu_legs = kNotComputed;         ///< against the filter's prediction, legs included
-  double C_IL_full = kNotComputed;             ///< eq. (6), 15-D
+  double C_IL_full = kNotComputed;             ///< eq. (6), the whole error state
   double D = kNotComputed;                     ///< D_k, eq. (7)
   double D_smoothed = kNotComputed;            ///< eq. (12)
   double gamma_lidar = 1.0;                    ///< eq. (8)

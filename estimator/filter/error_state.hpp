@@ -71,7 +71,8 @@ auto pose_segment(Vector& vector) {
   return vector.template head<ErrorState::kPoseSize>();
 }
 
-/// State of the filter, eq. (1): x = [R, p, v, b_g, b_a], and scale and bias of the leg odometry.
+/// State of the filter, eq. (1): x = [R, p, v, b_g, b_a], scale and bias of the legs, mount and
+/// delay.
 struct NominalState {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< R_odom_body
   Eigen::Vector3d position = Eigen::Vector3d::Zero();            ///< p_odom_body [m]

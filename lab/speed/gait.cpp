@@ -2,7 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include "sim/robot/stance_forces.hpp"
-#include "tests/sim/robot/walking.hpp"
+#include "tests/support/walking.hpp"
 
 namespace aims {
 namespace {

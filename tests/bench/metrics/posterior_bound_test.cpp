@@ -95,6 +95,7 @@ TEST(PosteriorBound, ReachesTheSteadyStateOfTheScalarRiccatiEquation) {
   F << 1, dt, 0, 1;
   Eigen::Matrix2d Q;
   Q << dt * dt * dt / 3, dt * dt / 2, dt * dt / 2, dt;
+  ASSERT_EQ(bounds.size(), times.size());
   for (const PosteriorBound& bound : bounds) {
     P = F * P * F.transpose() + 0.25 * Q;
     const Eigen::Vector2d gain = P.col(0) / (P(0, 0) + sigma * sigma);

@@ -52,7 +52,9 @@ TEST(Segments, OfTheSameNameAreNumbered) {
 }
 
 TEST(MList, OfAPerfectEstimateIsZeroInAnyFrame) {
-  for (const SegmentDistance& each : distances_of(test::perfect_walk())) {
+  const auto distances = distances_of(test::perfect_walk());
+  ASSERT_FALSE(distances.empty());
+  for (const SegmentDistance& each : distances) {
     EXPECT_NEAR(each.true_distance_m, test::kLength, 1e-9);
     EXPECT_NEAR(each.percent.value(), 0.0, 1e-9);
   }

@@ -202,7 +202,9 @@ TEST(Compare, TheTableHasEveryScoreTheWorseOnesFirst) {
 TEST(Compare, MoreSuccessIsBetter) {
   const auto lost = results(std::vector<double>(6, 9.0));
   const auto found = results(std::vector<double>(6, 0.1));
-  for (const ScoreChange& change : compare(lost, found).changes) {
+  const auto changes = compare(lost, found).changes;
+  ASSERT_FALSE(changes.empty());
+  for (const ScoreChange& change : changes) {
     EXPECT_EQ(change.verdict, ChangeVerdict::kBetter) << change.score;
   }
 }

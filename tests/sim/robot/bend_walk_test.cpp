@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/robot/scene_route.hpp"
-#include "tests/sim/robot/walking.hpp"
+#include "tests/support/walking.hpp"
 
 namespace aims {
 namespace {

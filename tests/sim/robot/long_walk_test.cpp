@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "tests/sim/robot/walking.hpp"
+#include "tests/support/walking.hpp"
 
 namespace aims {
 namespace {

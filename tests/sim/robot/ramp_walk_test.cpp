@@ -7,7 +7,7 @@
 #include "core/leg_kinematics.hpp"
 #include "sim/robot/robot_geometry.hpp"
 #include "sim/simulation.hpp"
-#include "tests/sim/robot/walking.hpp"
+#include "tests/support/walking.hpp"
 
 namespace aims {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "sim/robot/robot_geometry.hpp"
 #include "sim/robot/stance_forces.hpp"
-#include "tests/sim/robot/walking.hpp"
+#include "tests/support/walking.hpp"
 
 namespace aims {
 namespace {

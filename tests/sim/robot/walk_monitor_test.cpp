@@ -6,7 +6,7 @@
 #include <set>
 
 #include "sim/simulation.hpp"
-#include "tests/sim/robot/walking.hpp"
+#include "tests/support/walking.hpp"
 
 namespace aims {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "sim/robot/gait.hpp"
 #include "sim/robot/robot_geometry.hpp"
-#include "tests/sim/robot/walking.hpp"
+#include "tests/support/walking.hpp"
 
 namespace aims {
 namespace {

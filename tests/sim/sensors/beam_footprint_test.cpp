@@ -168,7 +168,9 @@ TEST(BeamFootprint, ALineMixesNothing) {
   LidarConfig config = wide_beam();
   config.beam = {};
   const double wall = kBoard + 0.6;
-  for (const EdgeReturn& each : edge_returns(config, wall)) {
+  const auto returns = edge_returns(config, wall);
+  ASSERT_FALSE(returns.empty());
+  for (const EdgeReturn& each : returns) {
     ASSERT_FALSE(between(each.measured, wall)) << each.measured;
   }
 }

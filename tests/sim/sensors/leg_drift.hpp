@@ -5,7 +5,7 @@
 
 #include "sim/sensors/sensor_level.hpp"
 #include "sim/simulation_config.hpp"
-#include "tests/sim/robot/walking.hpp"
+#include "tests/support/walking.hpp"
 
 namespace aims::testing {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "sim/robot/robot_geometry.hpp"
-#include "tests/sim/robot/walking.hpp"
+#include "tests/support/walking.hpp"
 
 namespace aims {
 namespace {
