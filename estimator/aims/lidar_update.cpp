@@ -85,7 +85,7 @@ Uncertainty largest_uncertainty(const Eigen::Matrix3d& covariance) {
 /// (its Schur complement), and the smallest eigenvalue of `real`, what of the scan counts as real.
 void record_localizability(const HalvesInformation& scan, const Matrix6& real,
                            ScanDiagnostics& diagnostics) {
-  diagnostics.weak_weight = weakest_confirmed_fraction(scan);
+  diagnostics.weak_weight = weakest_real_fraction(scan);
   diagnostics.weak_tilt = weakest_real_tilt(scan);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(position_information(scan.within),
                                                               Eigen::EigenvaluesOnly);
@@ -131,9 +131,9 @@ LidarUpdate::LidarUpdate(const EskfConfig& config, std::unique_ptr<const ScanRul
   cross_validation_.enabled = cross_validation_.enabled && config.lidar.enabled;
 }
 
-/// Part of the present scan as it is fused: eq. (9), R_lidar' = R_lidar / gamma_lidar, multiplies
+/// Part of the present scan to be fused: eq. (9), R_lidar' = R_lidar / gamma_lidar, multiplies
 /// its information by gamma_lidar.
-Linearization LidarUpdate::fused(ScanPart part, double gamma, const NominalState& state) const {
+Linearization LidarUpdate::to_fuse(ScanPart part, double gamma, const NominalState& state) const {
   const bool real = part == ScanPart::kReal && cross_validation_.enabled;
   PoseInformation pose = real ? fraction_.applied_to(scan_.halves)
                               : PoseInformation{scan_.halves.within, scan_.halves.within_vector};
@@ -186,7 +186,7 @@ NominalState LidarUpdate::settled(const Belief& predicted, std::span<const Eigen
     matcher_.match(pose, points, map, kGuessStride);
     scan_ = matcher_.linearize(pose);
     if (scan_.used < kMinMatches || i == kHeadingIterations) return at;
-    const Linearization scan = fused(ScanPart::kAll, 1.0, at);
+    const Linearization scan = to_fuse(ScanPart::kAll, 1.0, at);
     at = fuse(predicted, at, scan.measurement, scan.mask).state;
   }
 }
@@ -226,7 +226,7 @@ NominalState LidarUpdate::first_guess(const Belief& predicted,
   scan_ = matcher_.linearize(pose);
   diagnostics.residual_sigma_prior = std::sqrt(residual_statistics(matcher_.residuals()).variance);
   if (scan_.used < kMinMatches || rule_) return at;
-  const Linearization guess = fused(part_, 1.0, at);
+  const Linearization guess = to_fuse(part_, 1.0, at);
   return fuse(predicted, at, guess.measurement, guess.mask).state;
 }
 
@@ -278,7 +278,7 @@ IteratedUpdate LidarUpdate::trial(const Belief& predicted, std::span<const Eigen
     if (scan_.used < kMinMatches) return std::nullopt;
     if (first && cross_validation_.enabled) fraction_.add(scan_.halves, at.position, shared_tilt());
     first = false;
-    return fused(part_, 1.0, at);
+    return to_fuse(part_, 1.0, at);
   };
   const auto step_of = [&](const NominalState& before, const NominalState& after) {
     return step_between(scan_pose(before, calibration_), scan_pose(after, calibration_));
@@ -309,7 +309,7 @@ void LidarUpdate::assess(const Belief& predicted, const NominalState& trial_stat
 /// the robust kernel its weights are those of the last iteration, one later than in the trial.
 double LidarUpdate::leg_free_consistency(const Belief& leg_free,
                                          const NominalState& linearization) const {
-  const Linearization measured = fused(part_, 1.0, linearization);
+  const Linearization measured = to_fuse(part_, 1.0, linearization);
   const Belief updated = fuse(leg_free, linearization, measured.measurement, measured.mask);
   return lidar_consistency(updated.state, leg_free);
 }
@@ -348,7 +348,7 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
         diagnostics);
     if (leg_free != nullptr) diagnostics.C_IL_imu = leg_free_consistency(*leg_free, at);
     assess(predicted, at, diagnostics);
-    const Linearization weighed = fused(part_, weights_.gamma_lidar(), at);
+    const Linearization weighed = to_fuse(part_, weights_.gamma_lidar(), at);
     belief = fused_with(predicted, at, weighed);
     diagnostics.verdict = verdict_;
     matcher_.learn_noise();
@@ -369,7 +369,7 @@ Belief LidarUpdate::update_with_real_part(const Belief& predicted, const VoxelMa
   at.delay = matched_at_.delay;
   const Eigen::Vector3d apart = predicted.state.position - predicted_.position;
   at.position = matched_at_.position + apart - scan_mask(predicted.state).translation * apart;
-  const Linearization real = fused(ScanPart::kReal, weights_.gamma_lidar(), at);
+  const Linearization real = to_fuse(ScanPart::kReal, weights_.gamma_lidar(), at);
   const Belief belief = fuse(predicted, at, real.measurement, real.mask);
   update_map_covariance(map, matched_at_, predicted, belief);
   return belief;

@@ -108,7 +108,7 @@ class LidarUpdate {
  private:
   std::optional<double> shared_tilt() const;
   GainMask scan_mask(const NominalState& state) const;
-  Linearization fused(ScanPart part, double gamma, const NominalState& state) const;
+  Linearization to_fuse(ScanPart part, double gamma, const NominalState& state) const;
   Belief fused_with(const Belief& prior, const NominalState& at, const Linearization& scan);
   NominalState settled(const Belief& predicted, std::span<const Eigen::Vector3f> points,
                        const VoxelMap& map);

@@ -163,7 +163,7 @@ PoseInformation CrossValidatedInformation::applied_to(const HalvesInformation& s
   return applied;
 }
 
-double weakest_confirmed_fraction(const HalvesInformation& scan) {
+double weakest_real_fraction(const HalvesInformation& scan) {
   const Eigen::Matrix3d within =
       position_information(scan.within) + kRegularization * Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d across = position_information(scan.across);

@@ -108,7 +108,7 @@ class CrossValidatedInformation {
 /// Smallest eigenvalue ratio of `across` to `within` over the axes of the position, the rotation
 /// unknown: the real fraction of the information along the weakest axis, 1 without noise and about
 /// 0 where all of it is noise.
-double weakest_confirmed_fraction(const HalvesInformation& scan);
+double weakest_real_fraction(const HalvesInformation& scan);
 
 /// Root mean square tilt of the planes towards the weakest axis of the position, the rotation
 /// unknown, as far as both halves agree [rad]; negative when the halves contradict each other.

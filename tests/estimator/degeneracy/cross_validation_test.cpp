@@ -311,11 +311,11 @@ TEST(CrossValidation, WeakestFractionIsOneWithoutNoiseAndZeroWithNothingElse) {
   HalvesInformation scan;
   scan.within = 100.0 * Matrix6::Identity();
   scan.across = scan.within;
-  EXPECT_NEAR(weakest_confirmed_fraction(scan), 1.0, 1e-9);
+  EXPECT_NEAR(weakest_real_fraction(scan), 1.0, 1e-9);
   scan.across(3, 3) = 25.0;
-  EXPECT_NEAR(weakest_confirmed_fraction(scan), 0.25, 1e-9);
+  EXPECT_NEAR(weakest_real_fraction(scan), 0.25, 1e-9);
   scan.across(3, 3) = 0.0;
-  EXPECT_NEAR(weakest_confirmed_fraction(scan), 0.0, 1e-9);
+  EXPECT_NEAR(weakest_real_fraction(scan), 0.0, 1e-9);
 }
 
 TEST(CrossValidation, SchurComplementIsTheInformationWithTheRestUnknown) {
