@@ -14,7 +14,6 @@
 #include <sstream>
 #include <system_error>
 
-#include "cli/exit_code.hpp"
 #include "cli/json_output.hpp"
 #include "cli/terminal.hpp"
 #include "core/config.hpp"

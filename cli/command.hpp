@@ -122,4 +122,14 @@ struct Program {
 /// line and the code of an internal error.
 int run_program(const Program& program, int argc, char** argv);
 
+/// Exit codes of the `aims` command.
+enum ExitCode : int {
+  kOk = 0,
+  kExpectationFailed = 1,  ///< an expectation or an estimator failed; jobs are missing
+  kBadInput = 2,           ///< usage, configuration or files
+  kInternal = 3,           ///< a defect of this program
+  kInvalidRun = 4,         ///< a run is invalid (bench/scoring/validity.hpp), or an estimate
+  kInterrupted = 130,      ///< Ctrl-C; results so far are written; likewise 129 and 143
+};
+
 }  // namespace aims

@@ -2,7 +2,6 @@
 #include <memory>
 #include <string>
 
-#include "bench/studies/detector_summary.hpp"
 #include "bench/studies/detectors.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "cli/commands.hpp"

@@ -8,8 +8,8 @@
 
 #include "bench/estimate/estimate.hpp"
 #include "bench/estimate/estimate_summary.hpp"
-#include "bench/scoring/failure_reasons.hpp"
 #include "bench/scoring/health_summary.hpp"
+#include "bench/scoring/run_failure.hpp"
 #include "bench/scoring/trajectory_summary.hpp"
 #include "cli/commands.hpp"
 #include "cli/json_output.hpp"
@@ -18,8 +18,7 @@
 #include "cli/terminal.hpp"
 #include "core/files/output_folder.hpp"
 #include "render/page/page.hpp"
-#include "render/results/estimate_pictures.hpp"
-#include "render/results/run_pictures.hpp"
+#include "render/results/pictures.hpp"
 
 namespace aims {
 namespace {

@@ -13,7 +13,7 @@
 #include "cli/options.hpp"
 #include "cli/sweep_results.hpp"
 #include "cli/terminal.hpp"
-#include "core/counted.hpp"
+#include "core/text.hpp"
 #include "render/page/page.hpp"
 #include "render/page/tuning_source.hpp"
 
@@ -34,11 +34,10 @@ struct MergeArguments {
 void print_open(const MergedSweep& sweep) {
   std::size_t open = 0;
   for (const MergedJob& job : sweep.jobs) {
-    const std::string outcome = job.outcome();
-    if (outcome == "done" || ++open > kMostShown) continue;
+    if (job.is_done() || ++open > kMostShown) continue;
     const std::string message = job.file.is_object() ? job.file.value("message", "") : "";
     const std::string why = job.invalid().value_or(message);
-    print_out("{}: {} {} seed {} {}{}{}\n", outcome, job.listed.id, job.listed.scenario,
+    print_out("{}: {} {} seed {} {}{}{}\n", job.outcome(), job.listed.id, job.listed.scenario,
               job.listed.seed, job.listed.estimator, why.empty() ? "" : ": ", why);
   }
   if (open > kMostShown) print_out("and {} more\n", open - kMostShown);
@@ -48,7 +47,7 @@ void print_open(const MergedSweep& sweep) {
 bool lacks_score(const MergedSweep& sweep, const std::string& key) {
   bool done = false;
   for (const MergedJob& job : sweep.jobs) {
-    if (job.outcome() != "done") continue;
+    if (!job.is_done()) continue;
     done = true;
     if (number_at(value_in(job.file, "scores", Json()), key)) return false;
   }

@@ -3,13 +3,15 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/jobs/job_runner.hpp"
 #include "bench/scenario/catalogue.hpp"
 #include "cli/command.hpp"
-#include "cli/exit_code.hpp"
+#include "core/config.hpp"
 #include "core/error.hpp"
 
 namespace aims {
@@ -120,5 +122,21 @@ std::vector<std::filesystem::path> further(const std::vector<std::string>& files
 
 /// Prints on standard error what was wrong with what `command` was given; the exit code for it.
 int bad_input(const char* command, const Error& error);
+
+/// What `aims sweep` and `aims tune` have in common: scenarios, seeds, estimators, --param, --set,
+/// cache, --jobs, --retry and --quiet. Each is also a key of their plans.
+void add_plan_options(Command& command, SharedOptions& options, const std::string& param_forms);
+
+/// What was given replaces what the plan has, but --set, which comes on top of it.
+template <class Plan>
+void put_on_top(const SharedOptions& options, Plan& plan) {
+  if (!options.scenarios.empty() || !options.tags.empty()) {
+    plan.scenarios = options.scenarios;
+    plan.tags = options.tags;
+  }
+  if (!options.param.empty()) plan.params = options.param;
+  if (!options.seeds.empty()) plan.seeds = options.seeds;
+  plan.set.insert(plan.set.end(), options.settings.begin(), options.settings.end());
+}
 
 }  // namespace aims

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/draw_observer.hpp"
+#include "bench/estimate/progress.hpp"
 #include "bench/studies/paper_study.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "bench/studies/written_runs.hpp"
@@ -13,7 +13,7 @@
 #include "cli/suite_options.hpp"
 #include "cli/terminal.hpp"
 #include "core/error.hpp"
-#include "render/results/run_pictures.hpp"
+#include "render/results/pictures.hpp"
 
 namespace aims {
 namespace {

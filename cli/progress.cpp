@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "cli/exit_code.hpp"
+#include "cli/command.hpp"
 #include "cli/terminal.hpp"
 #include "core/text.hpp"
 

@@ -8,7 +8,6 @@
 
 #include "bench/estimate/progress.hpp"
 #include "bench/jobs/job_runner.hpp"
-#include "bench/run/draw_observer.hpp"
 
 namespace aims {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/scoring/failure_reasons.hpp"
 #include "bench/scoring/health_summary.hpp"
+#include "bench/scoring/run_failure.hpp"
 #include "bench/scoring/score_table.hpp"
 #include "bench/studies/written_runs.hpp"
 #include "cli/commands.hpp"
@@ -15,7 +15,7 @@
 #include "cli/progress.hpp"
 #include "cli/suite_options.hpp"
 #include "cli/terminal.hpp"
-#include "render/results/run_pictures.hpp"
+#include "render/results/pictures.hpp"
 
 namespace aims {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 
 #include "bench/estimate/scoring_input.hpp"
-#include "bench/scenario/scoring_config.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "bench/scoring/evo_export.hpp"
-#include "bench/scoring/failure_reasons.hpp"
+#include "bench/scoring/run_failure.hpp"
 #include "bench/scoring/trajectory_summary.hpp"
 #include "cli/commands.hpp"
 #include "cli/json_output.hpp"
@@ -17,8 +17,7 @@
 #include "core/files/output_folder.hpp"
 #include "core/files/tum.hpp"
 #include "render/page/page.hpp"
-#include "render/results/run_pictures.hpp"
-#include "render/results/trajectory_pictures.hpp"
+#include "render/results/pictures.hpp"
 
 namespace aims {
 namespace {

@@ -6,11 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "bench/scoring/failure_reasons.hpp"
+#include "bench/scoring/run_failure.hpp"
 #include "bench/scoring/score_table.hpp"
 #include "bench/studies/families.hpp"
 #include "bench/studies/suite_summary.hpp"
-#include "bench/studies/suite_tables.hpp"
 #include "bench/studies/written_runs.hpp"
 #include "cli/commands.hpp"
 #include "cli/json_output.hpp"

@@ -11,7 +11,7 @@
 #include "bench/tuning/sweep_store.hpp"
 #include "cli/commands.hpp"
 #include "cli/json_output.hpp"
-#include "cli/plan_options.hpp"
+#include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/sweep_results.hpp"
 #include "cli/terminal.hpp"

@@ -10,7 +10,7 @@
 #include "bench/tuning/sweep_plan.hpp"
 #include "bench/tuning/sweep_summary.hpp"
 #include "cli/terminal.hpp"
-#include "core/counted.hpp"
+#include "core/text.hpp"
 
 namespace aims {
 namespace {

@@ -7,12 +7,11 @@
 #include <vector>
 
 #include "bench/tuning/tune.hpp"
-#include "bench/tuning/tune_overlay.hpp"
 #include "bench/tuning/tune_summary.hpp"
 #include "bench/tuning/tune_verdict.hpp"
 #include "cli/commands.hpp"
 #include "cli/json_output.hpp"
-#include "cli/plan_options.hpp"
+#include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"
 #include "estimator/estimator_spec.hpp"

@@ -156,6 +156,10 @@ std::string decimal_text(double value, int digits) {
   return zero && text.front() == '-' ? text.substr(1) : text;
 }
 
+std::string counted(std::size_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
 std::string stamp_text(Time stamp) {
   const bool negative = stamp < 0;
   // Negated as unsigned, so that the smallest integer has a magnitude too.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -34,6 +35,9 @@ std::string lower_case(std::string_view text);
 
 /// The number with so many decimals; what rounds to zero has no sign.
 std::string decimal_text(double value, int digits);
+
+/// "1 point", "4 points".
+std::string counted(std::size_t count, std::string_view noun);
 
 /// Seconds with nine decimals, which keep the nanoseconds exactly.
 std::string stamp_text(Time stamp);

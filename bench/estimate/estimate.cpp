@@ -11,7 +11,6 @@
 #include "bench/estimate/bag_origin.hpp"
 #include "bench/estimate/count_warnings.hpp"
 #include "bench/estimate/estimate_log.hpp"
-#include "bench/estimate/healthy_while_wrong.hpp"
 #include "bench/estimate/mount_check.hpp"
 #include "bench/estimate/python_classes.hpp"
 #include "bench/estimate/ring_note.hpp"

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/scoring/estimator_files.hpp"
+#include "bench/estimate/estimate.hpp"
+#include "bench/scoring/result_files.hpp"
 #include "bench/scoring/timed_estimator.hpp"
 #include "core/error.hpp"
 #include "core/files/atomic_file.hpp"
@@ -46,5 +47,9 @@ class EstimateLog {
   std::vector<RowWriter> writers_;  ///< one per estimator; none without a folder
   std::optional<AtomicFile> truth_;
 };
+
+/// Fills in how long each scored estimator called itself healthy after its error exceeded the limit
+/// of a success. Error when the file of its health cannot be read.
+Result<void> add_healthy_while_wrong(EstimateResult& result);
 
 }  // namespace aims

@@ -7,9 +7,9 @@
 
 #include "bench/estimate/estimate_log.hpp"
 #include "bench/metrics/statistics.hpp"
-#include "bench/scoring/estimator_files.hpp"
 #include "bench/scoring/health_summary.hpp"
 #include "bench/scoring/json_text.hpp"
+#include "bench/scoring/result_files.hpp"
 #include "bench/scoring/score_record.hpp"
 #include "bench/scoring/tables.hpp"
 #include "bench/scoring/trajectory_summary.hpp"
@@ -60,16 +60,6 @@ Json pose_json(const Pose& pose) {
 std::string config_text(const EstimateConfig& config) {
   EstimateConfig used = config;
   return dump_config(fields_of(used));
-}
-
-/// Writes scores.json and scores.csv.
-Result<void> write_scores(const EstimateResult& result, const fs::path& folder) {
-  const RunRecord record = estimate_record(result);
-  auto written = write_csv(folder / "scores.csv", scores_csv({&record, 1}));
-  if (written) {
-    written = write_file_atomically(folder / "scores.json", json_text(record.scores, 2) + "\n");
-  }
-  return written;
 }
 
 }  // namespace
@@ -157,8 +147,7 @@ Result<void> write_estimate(const EstimateConfig& config, const EstimateResult& 
                             const fs::path& folder) {
   auto written = write_file_atomically(folder / "config.yaml", config_text(config));
   if (written) {
-    written =
-        write_file_atomically(folder / "estimate.json", json_text(estimate_json(result), 2) + "\n");
+    written = write_json(folder / "estimate.json", estimate_json(result));
   }
   for (const EstimatorOutcome& each : result.estimators) {
     if (!written) break;
@@ -169,7 +158,7 @@ Result<void> write_estimate(const EstimateConfig& config, const EstimateResult& 
     written = write_csv(folder / "scans.csv", shown_scans_table(result.scans));
   }
   if (written && !result.truth.empty()) written = write_tum(folder / kTruthFile, result.truth);
-  if (written && result.scores) written = write_scores(result, folder);
+  if (written && result.scores) written = write_record(estimate_record(result), folder);
   return written;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 
 namespace aims {
@@ -21,5 +22,12 @@ struct Progress {
 
 /// Called between batches; returning false ends the work early with what there is.
 using Observer = std::function<bool(const Progress&)>;
+
+/// Called with each file that is about to be drawn; empty: nobody watches.
+using DrawObserver = std::function<void(const std::filesystem::path& file)>;
+
+inline void announce(const DrawObserver& observer, const std::filesystem::path& file) {
+  if (observer) observer(file);
+}
 
 }  // namespace aims

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "bench/estimate/bag_origin.hpp"
-#include "bench/estimate/frame_stamps.hpp"
 #include "bench/metrics/lever_arm.hpp"
+#include "bench/scoring/score_hints.hpp"
 #include "bench/scoring/segment_list.hpp"
 #include "core/file_name.hpp"
 #include "core/files/kitti.hpp"
@@ -71,6 +71,27 @@ std::string name_of(const TrajectoryFile& file) { return file.file.stem().string
 tl::unexpected<Error> with_copy(const Error& error) {
   if (error.message.find("; --recover ") == std::string::npos) return failure(error.message);
   return failure(error.message + " (aims convert IN --recover --out COPY; then score the copy)");
+}
+
+/// Gives poses whose stamps are numbers of frames (`is_frame_index`) the stamps of those frames,
+/// and notes it; others stay as they are. Numbers count from 0, or from 1 where the last is that of
+/// the last frame. Error for a frame without a stamp.
+Result<void> stamp_frames(const StampList& times, const std::string& name, Trajectory& poses,
+                          std::vector<std::string>& notes) {
+  if (!is_frame_index(poses)) return {};
+  const auto number_of = [](const StampedPose& pose) {
+    return static_cast<std::size_t>(pose.stamp / kSecond);
+  };
+  const std::size_t last = number_of(poses.back());
+  const std::size_t first = number_of(poses.front()) == 1 && last == times.stamps.size() ? 1 : 0;
+  if (last - first >= times.stamps.size()) {
+    return failure(fmt::format("{}: has a pose of frame {}, but {} has {} stamps", name, last,
+                               times.name, times.stamps.size()));
+  }
+  for (StampedPose& each : poses) each.stamp = times.stamps[number_of(each) - first];
+  notes.push_back(fmt::format("{}: its stamps are numbers of frames: those of {} take their place",
+                              name, times.name));
+  return {};
 }
 
 /// Reads a trajectory of the request, unless it is in memory.
@@ -192,9 +213,7 @@ Result<void> read_estimates(const ScoringRequest& request, std::vector<StampList
 Result<BagOrigin> origin_of(const ScoringRequest& request, const std::filesystem::path& bag,
                             std::vector<std::string>& notes) {
   if (request.waypoint_times.empty()) return bag.empty() ? BagOrigin{} : bag_origin(bag);
-  const auto text = read_text_file(request.waypoint_times);
-  if (!text) return tl::unexpected(text.error());
-  auto waypoint_times = parse_waypoint_times(*text, request.waypoint_times.string());
+  auto waypoint_times = read_waypoint_times(request.waypoint_times);
   if (!waypoint_times) return tl::unexpected(waypoint_times.error());
   const bool asked = !request.segments.empty() || request.is_configured;
   const StatedSegments stated = asked ? StatedSegments() : segments_beside(request.waypoint_times);

@@ -78,7 +78,7 @@ CsvTable shown_scans_table(std::span<const ShownScan> scans) {
   CsvTable table({"stamp_s", "returns", "x", "y", "z", "intensity"});
   for (const ShownScan& scan : scans) {
     for (const ShownReturn& each : scan.shown) {
-      table.add(to_seconds(scan.stamp)).add(static_cast<std::int64_t>(scan.returns));
+      table.add(to_seconds(scan.stamp)).add(scan.returns);
       for (int axis = 0; axis < 3; ++axis) table.add(rounded(each.p_body[axis], 1e-3));
       table.add(rounded(each.intensity, 1e-2)).end_row();
     }

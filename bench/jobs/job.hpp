@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,6 +27,8 @@ struct ScenarioSetting {
   std::string default_value;  ///< of the scenario itself
 };
 
+struct JobResult;
+
 /// The least piece of work: one estimator with its settings on one sequence. The same job gives the
 /// same scores wherever and whenever it is done.
 struct Job {
@@ -34,6 +38,9 @@ struct Job {
   std::string id;  ///< bench/jobs/job_id.hpp: of scenario, seed, estimator, settings, code version
   std::vector<ScenarioSetting> scenario_settings = {};  ///< what a sweep varies of the scenario
   std::string version = {};  ///< of a sweep: hash of scenario and estimator, whatever the seed
+  /// Of a job on a recording, in place of a simulated sequence: all that is to be done, in a
+  /// process of its own, which tells the part that is done.
+  std::function<JobResult(std::atomic<double>& part)> recorded = {};
 };
 
 /// The job of those parts under its id, on the scenario as the seed draws it.

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "bench/run/weak_axis_series.hpp"
-#include "bench/scoring/estimator_files.hpp"
 #include "bench/scoring/json_text.hpp"
+#include "bench/scoring/result_files.hpp"
 #include "bench/scoring/score_record.hpp"
 #include "bench/scoring/validity.hpp"
 #include "core/files/csv.hpp"
@@ -32,6 +32,13 @@ std::string simulate(const SequenceCache& cache, const Scenario& scenario, std::
   if (!made) return text_of_reply({{"error", made.error().message}});
   if (made->refusal) return text_of_reply({{"refusal", *made->refusal}});
   return text_of_reply({{"made", made->simulated}});
+}
+
+/// Of the process of a job.
+std::string reply_of(const JobResult& result, const Result<void>& stored) {
+  if (!stored) return text_of_reply({{"error", stored.error().message}});
+  return text_of_reply({{"failed", result.outcome != JobOutcome::kDone},
+                        {"invalid", invalid_reason(result.sequence).has_value()}});
 }
 
 /// Writes what is kept of a job besides its scores.
@@ -60,7 +67,8 @@ JobSchedule::JobSchedule(JobRunner& runner, std::span<const Job> jobs, const Job
     : runner_(runner), observer_(observer), pool_(runner.options_.jobs) {
   for (const Job& job : jobs) add(job);
   for (SequenceWork& sequence : sequences_) {
-    if (runner_.cache_.has(sequence.id)) sequence.state = SequenceWork::State::kReady;
+    const bool ready = sequence.jobs.front()->recorded || runner_.cache_.has(sequence.id);
+    if (ready) sequence.state = SequenceWork::State::kReady;
     if (runner_.options_.simulate_only) sequence.next = sequence.jobs.size();
     progress_.total += sequence.jobs.size() - sequence.next;
     progress_.simulation.total += sequence.state == SequenceWork::State::kMissing ? 1 : 0;
@@ -94,7 +102,7 @@ void JobSchedule::add(const Job& job) {
     run_.invalid += invalid_reason(result->sequence) ? 1 : 0;
     return;
   }
-  const std::string id = runner_.sequence_id(job);
+  const std::string id = job.recorded ? job.id : runner_.sequence_id(job);
   auto sequence = index_.find(id);
   if (sequence == index_.end()) {
     sequence = index_.emplace(id, sequences_.size()).first;
@@ -128,7 +136,19 @@ Result<void> JobSchedule::start_sequence(SequenceWork& sequence) {
   });
 }
 
+Result<void> JobSchedule::start_recorded(SequenceWork& work) {
+  const Job& job = *work.jobs[work.next++];
+  const auto done = [this, &job](std::atomic<double>& part) {
+    const Stopwatch stopwatch;
+    JobResult result = job.recorded(part);
+    result.wall_s = stopwatch.seconds();
+    return reply_of(result, runner_.store_.put(job, result));
+  };
+  return start({&work, &job}, runner_.options_.timeout_s, done);
+}
+
 Result<void> JobSchedule::start_job(SequenceWork& work) {
+  if (work.jobs.front()->recorded) return start_recorded(work);
   const auto open = runner_.open(work.id, work.scenario(), work.seed());
   if (!open && !work.remade) {  // e.g. cut short by a power failure
     work.remade = true;
@@ -158,9 +178,7 @@ Result<void> JobSchedule::start_job(SequenceWork& work) {
     }
     result.wall_s = stopwatch.seconds();
     if (stored) stored = runner_.store_.put(job, result);
-    if (!stored) return text_of_reply({{"error", stored.error().message}});
-    return text_of_reply({{"failed", result.outcome != JobOutcome::kDone},
-                          {"invalid", invalid_reason(result.sequence).has_value()}});
+    return reply_of(result, stored);
   };
   return start({&work, &job}, runner_.options_.timeout_s, evaluated);
 }

@@ -46,6 +46,7 @@ class JobSchedule {
   void add(const Job& job);
   Result<void> start_all();
   Result<void> start_job(SequenceWork& sequence);
+  Result<void> start_recorded(SequenceWork& work);
   Result<void> start_sequence(SequenceWork& sequence);
   Result<void> start(Task task, double timeout_s, const ProcessPool::Work& work);
   Result<void> take(const EndedProcess& ended);

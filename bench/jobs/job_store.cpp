@@ -34,7 +34,7 @@ std::string plan_file_text(const std::string& plan) {
 std::string job_list(std::span<const Job> jobs) {
   CsvTable table({"id", "scenario", "seed", "label", "estimator", "version"});
   for (const Job& job : jobs) {
-    table.add(job.id).add(job.scenario->name).add(static_cast<std::int64_t>(job.seed));
+    table.add(job.id).add(job.scenario->name).add(job.seed);
     table.add(job.estimator.label).add(point_text(job)).add(job.version).end_row();
   }
   return table.text();
@@ -209,7 +209,7 @@ std::optional<JobResult> JobStore::find(const std::string& id) const {
 Result<void> JobStore::put(const Job& job, const JobResult& result) const {
   std::error_code code;
   fs::create_directories(folder_ / "jobs", code);
-  return write_file_atomically(file_of(job.id), json_text(job_json(job, result), 1) + "\n");
+  return write_json(file_of(job.id), job_json(job, result), 1);
 }
 
 std::vector<std::string> JobStore::ids() const {

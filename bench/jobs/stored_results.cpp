@@ -7,8 +7,8 @@
 
 #include "bench/jobs/job_store.hpp"
 #include "bench/scoring/json_text.hpp"
+#include "bench/scoring/result_files.hpp"
 #include "bench/scoring/validity.hpp"
-#include "core/files/atomic_file.hpp"
 
 namespace aims {
 
@@ -76,20 +76,6 @@ RunRecord record_of(const std::string& scenario, std::uint64_t seed,
   record.scores["estimators"] = std::move(estimators);
   mark_validity(record.scores);
   return record;
-}
-
-Result<RunRecord> read_record(const fs::path& file) {
-  const auto text = read_file(file);
-  if (!text) return tl::unexpected(text.error());
-  auto parsed = parse_json(*text, file.string());
-  if (!parsed) return tl::unexpected(parsed.error());
-  Json& json = *parsed;
-  const bool known = json.is_object() && value_in(json, "schema", "") == kScoresSchema &&
-                     json.contains("seed") && json["seed"].is_number_unsigned() &&
-                     json.contains("estimators") && json["estimators"].is_object();
-  if (!known) return failure(fmt::format("{}: holds no {}", file.string(), kScoresSchema));
-  mark_validity(json);  // of results from before it was written
-  return RunRecord{json["seed"].get<std::uint64_t>(), std::move(json)};
 }
 
 Result<StoredResults> read_results(const fs::path& folder) {

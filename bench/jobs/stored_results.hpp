@@ -24,9 +24,6 @@ struct LabelledResult {
 RunRecord record_of(const std::string& scenario, std::uint64_t seed,
                     std::span<const LabelledResult> results, bool complete = true);
 
-/// Reads a scores.json; error when it is not one, e.g. cut short.
-Result<RunRecord> read_record(const std::filesystem::path& file);
-
 /// Records by scenario, in order of their seeds.
 using StoredResults = std::map<std::string, std::vector<RunRecord>>;
 

@@ -10,6 +10,8 @@
 #include "bench/scoring/tables.hpp"
 #include "core/files/csv_columns.hpp"
 #include "core/files/tum.hpp"
+#include "core/files/waypoint_times.hpp"
+#include "sim/environment/scene_config.hpp"
 
 namespace aims {
 namespace {
@@ -81,6 +83,19 @@ Result<void> write_sequence(const Sequence& sequence, const Scenario& scenario,
   write("snapshots.csv", snapshots_table(truth.snapshots));
   write("scans.csv", shown_scans_table(*scans));
   return written;
+}
+
+Result<WrittenSequence> read_sequence(const std::filesystem::path& folder) {
+  auto scenario = load_scenario(folder / "config.yaml", {});
+  if (!scenario) return tl::unexpected(scenario.error());
+  auto truth = read_tum(folder / "truth.tum");
+  if (!truth) return tl::unexpected(truth.error());
+  auto waypoint_times = read_waypoint_times(folder / "waypoint_times.csv");
+  if (!waypoint_times) return tl::unexpected(waypoint_times.error());
+  const auto seed = static_cast<std::uint64_t>(scenario->seed);
+  Scene scene = build_scene(scenario->simulation.scene, seed);
+  return WrittenSequence{std::move(*scenario), seed, std::move(scene), std::move(*truth),
+                         std::move(*waypoint_times)};
 }
 
 Result<std::vector<RobotSnapshot>> read_snapshots(const std::filesystem::path& file) {

@@ -11,6 +11,7 @@
 #include "bench/scenario/sequence_record.hpp"
 #include "core/error.hpp"
 #include "core/trajectory.hpp"
+#include "sim/environment/scene.hpp"
 
 namespace aims {
 
@@ -45,6 +46,18 @@ Json sequence_json(const Sequence& sequence, const Scenario& scenario, const Sco
 inline constexpr const char* kSequenceFiles[] = {"truth.tum",          "waypoint_times.csv",
                                                  "localizability.csv", "legs.csv",
                                                  "snapshots.csv",      "scans.csv"};
+
+/// What a run's folder holds of its scenario and way.
+struct WrittenSequence {
+  Scenario scenario;
+  std::uint64_t seed = 0;
+  Scene scene;
+  Trajectory truth;
+  std::vector<WaypointTime> waypoint_times;
+};
+
+/// Reads config.yaml, truth.tum and waypoint_times.csv.
+Result<WrittenSequence> read_sequence(const std::filesystem::path& folder);
 
 /// Reads snapshots.csv.
 Result<std::vector<RobotSnapshot>> read_snapshots(const std::filesystem::path& file);

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "bench/run/expectations.hpp"
-#include "bench/scoring/failure_reasons.hpp"
 #include "bench/scoring/json_text.hpp"
 #include "bench/scoring/report.hpp"
+#include "bench/scoring/run_failure.hpp"
 #include "bench/scoring/score_statistics.hpp"
 #include "bench/scoring/score_table.hpp"
 #include "bench/scoring/tables.hpp"
@@ -47,7 +47,7 @@ std::string markdown_of(const SeedRuns& seeds) {
   if (const auto settings = settings_of(scenario); !settings.empty()) {
     text += settings_markdown(settings) + "\n";
   }
-  if (!complete) text += "**Interrupted: of the finished runs alone.**\n\n";
+  if (!complete) text += fmt::format("{}\n", kInterruptedNote);
   text += to_markdown(score_table(runs)) + "\n" + score_legend(runs, scenario.scoring);
   if (const std::string left_out = left_out_text(runs); !left_out.empty()) {
     text += "\n" + left_out + ".\n";
@@ -63,7 +63,7 @@ std::string markdown_of(const SeedRuns& seeds) {
 CsvTable csv_of(const SeedRuns& seeds) {
   CsvTable table = scores_csv(seeds.runs);
   for (const RunFailure& each : seeds.failures) {
-    table.add(static_cast<std::int64_t>(each.seed.value_or(0)));
+    table.add(each.seed.value_or(0));
     table.add(each.estimator).add("failed").add(1.0).end_row();
   }
   return table;

@@ -2,15 +2,17 @@
 #include "bench/scenario/scenario.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
+#include <string_view>
+#include <vector>
 
 #include "bench/estimate/python_classes.hpp"
 #include "bench/scenario/model_sheets.hpp"
 #include "bench/scenario/scenario_head.hpp"
 #include "bench/scenario/score_keys.hpp"
-#include "bench/scenario/set_description.hpp"
 #include "core/file_name.hpp"
 #include "core/files/config_dump.hpp"
 #include "core/files/yaml_config.hpp"
@@ -311,6 +313,28 @@ std::string config_text(const Scenario& scenario, bool annotated) {
   return annotated ? dump_annotated_config(fields) : dump_config(fields);
 }
 
+namespace {
+
+constexpr std::string_view kWithSettings = "With changed settings: ";
+
+/// The description, which was written of the file, with what was set on top.
+std::string description_with_settings(const Scenario& scenario) {
+  std::vector<std::string> settings = settings_of(scenario);
+  if (std::ranges::any_of(settings,
+                          [](const auto& each) { return each.starts_with("description="); })) {
+    return scenario.description;
+  }
+  std::erase_if(settings, [](const auto& each) {
+    return each.starts_with("estimators.") || each.starts_with("seed=");
+  });
+  if (settings.empty()) return scenario.description;
+  std::string text = scenario.description;
+  if (!text.empty()) text += text.ends_with('.') ? " " : ". ";
+  return text + fmt::format("{}{}.", kWithSettings, fmt::join(settings, ", "));
+}
+
+}  // namespace
+
 std::string effective_config(const Scenario& scenario, std::uint64_t seed) {
   Scenario effective = scenario_of_seed(scenario, seed);
   effective.seed = static_cast<int>(seed);
@@ -350,6 +374,38 @@ Result<std::vector<fs::path>> scenario_files(const fs::path& folder) {
                                other->second.string(), file.string()));
   }
   return files;
+}
+
+namespace {
+
+/// The part of a configuration that scoring reads.
+struct ScoringSettings {
+  ScoreConfig scoring;
+};
+
+void describe(Fields& fields, ScoringSettings& settings) {
+  fields.group("scoring", settings.scoring);
+}
+
+}  // namespace
+
+Result<ScoreConfig> scoring_config(const std::filesystem::path& file,
+                                   std::span<const std::string> overrides) {
+  ScoringSettings settings;
+  if (!file.empty()) {
+    Scenario scenario;
+    if (auto loaded = load_config(file, scenario); !loaded) return tl::unexpected(loaded.error());
+    settings.scoring = scenario.scoring;
+  }
+  auto applied = apply_overrides(settings, overrides);
+  if (!applied) return tl::unexpected(applied.error());
+  return settings.scoring;
+}
+
+std::string description_without_settings(const std::string& description) {
+  std::string text = description.substr(0, description.rfind(kWithSettings));
+  while (text.ends_with(' ')) text.pop_back();
+  return text;
 }
 
 }  // namespace aims

@@ -117,4 +117,13 @@ Result<std::filesystem::path> find_scenario(const std::string& given,
 /// bare name.
 Result<std::vector<std::filesystem::path>> scenario_files(const std::filesystem::path& folder);
 
+/// How to score, by the group `scoring` of a YAML file (none: the defaults) with the settings
+/// "scoring.key=value" on top. Any scenario, or the config.yaml of a run, may be given: the rest of
+/// it is checked and left.
+Result<ScoreConfig> scoring_config(const std::filesystem::path& file,
+                                   std::span<const std::string> overrides);
+
+/// The description in the configuration of a run, without what was set on top, which it names.
+std::string description_without_settings(const std::string& description);
+
 }  // namespace aims

@@ -27,12 +27,9 @@ std::vector<SegmentDistance> route_segments(const Scenario& scenario) {
   return segments;
 }
 
-/// Scores that have no values but every key.
 Scores undefined_scores(const Scenario& scenario) {
-  Scores scores = score_over({}, {}, {}, scenario.scoring);
+  Scores scores = undefined_scores(scenario.scoring);
   scores.segments = route_segments(scenario);
-  scores.drift = DriftSummary();
-  if (scenario.scoring.sim3) scores.sim3_scale = 1.0;
   return scores;
 }
 

@@ -73,6 +73,10 @@ std::optional<double> number_in(const Json& json, const std::string& key) {
   return std::isfinite(number) ? std::optional<double>(number) : std::nullopt;
 }
 
+Result<void> write_json(const fs::path& file, const Json& json, int indent) {
+  return write_file_atomically(file, json_text(json, indent) + "\n");
+}
+
 Result<Json> read_json_of(const fs::path& file, std::string_view schema) {
   const auto text = read_file(file);
   if (!text) return tl::unexpected(text.error());

@@ -54,6 +54,9 @@ std::string text_in(const Json& json, const std::string& key);
 /// The finite number of that key; none when it is none.
 std::optional<double> number_in(const Json& json, const std::string& key);
 
+/// Writes the text atomically, with a line end.
+Result<void> write_json(const std::filesystem::path& file, const Json& json, int indent = 2);
+
 /// Reads a JSON document of that schema. Error with the file and what was expected.
 Result<Json> read_json_of(const std::filesystem::path& file, std::string_view schema);
 

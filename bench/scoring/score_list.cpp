@@ -146,10 +146,14 @@ constexpr std::array kScores = {
           [](const Scores& s) { return path_errors_json(s, &PathError::rotation_deg_per_m); }},
     Score{"rpe_1m", "", "", 3, kSmall, 0, rpe_json<1>, has_rpe<1>},
     Score{"rpe_10m", "", "", 3, kSmall, 0, rpe_json<10>, has_rpe<10>},
+    Score{"drift_m.end", "", "m", 3, kOpen},  // with a sign, of which neither end is better
     Score{"drift_m", "", "m", 3, kSmall, 0, drift_json},
     Score{"weak_axis", "NEES weak axis", "-", 2, kOpen},
     Score{"time_per_scan_ms", "wall", "ms", 2},
     Score{"cpu_per_scan_ms", "CPU", "ms", 2},
+    Score{"poses", "", "-", 0, kLarge},
+    Score{"counts", "", "-", 0, kOpen},  // what the data and the machine decide
+    Score{"health.healthy_s", "", "s", 1, kLarge},
 };
 // clang-format on
 
@@ -161,16 +165,9 @@ const Score* listed(std::string_view key) {
   });
 }
 
-/// Of parts of an object: errors with a sign, of which neither end is better.
-bool is_signed(std::string_view key) { return key.starts_with("drift_m.end"); }
-
-/// Of numbers that the list lacks: what the data and the machine decide, not the estimator.
-bool is_no_score(std::string_view key) { return key.starts_with("counts."); }
-
-/// Of numbers that the list lacks or has as parts of an object.
-bool is_larger_better(std::string_view key) {
-  return key == "poses" || key == "health.healthy_s" ||
-         (key.starts_with("weak_axis.") && key.ends_with(".efficiency"));
+/// Of a level of the weak axis, which has a key of its own.
+bool is_efficiency(std::string_view key) {
+  return key.starts_with("weak_axis.") && key.ends_with(".efficiency");
 }
 
 /// The entry for a number of that key.
@@ -187,8 +184,7 @@ std::span<const Score> score_list() { return kScores; }
 const Score& score_at(std::string_view key) { return *listed(key); }
 
 Better better_of(std::string_view key) {
-  if (is_larger_better(key)) return Better::kLarger;
-  if (is_signed(key) || is_no_score(key)) return Better::kNeither;
+  if (is_efficiency(key)) return Better::kLarger;
   const auto* const score = listed(key);
   return score == kScores.end() ? Better::kSmaller : score->better;
 }

@@ -174,6 +174,13 @@ bool has_optimized(const RunRecord& record, const std::string& estimator) {
   return json.is_object() && json.contains("optimized");
 }
 
+Scores undefined_scores(const ScoreConfig& scoring) {
+  Scores scores = score_over({}, {}, {}, scoring);
+  scores.drift = DriftSummary();
+  if (scoring.sim3) scores.sim3_scale = 1.0;
+  return scores;
+}
+
 std::vector<std::string> score_keys(const RunRecord& record, const std::string& estimator) {
   std::vector<std::string> keys;
   visit_leaves(estimator_in(record, estimator), "",

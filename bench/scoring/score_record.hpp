@@ -88,6 +88,9 @@ std::string optimized_label(const std::string& estimator);
 /// Whether the record scores a re-optimized trajectory of the estimator.
 bool has_optimized(const RunRecord& record, const std::string& estimator);
 
+/// Scores without values that have every key which an estimate can have with these settings.
+Scores undefined_scores(const ScoreConfig& scoring);
+
 /// Dotted keys of every number that an estimator of the record has.
 std::vector<std::string> score_keys(const RunRecord& record, const std::string& estimator);
 

@@ -154,12 +154,12 @@ CsvTable scores_csv(std::span<const RunRecord> runs) {
   CsvTable table({"seed", "estimator", "score", "value"});
   for (const RunRecord& run : runs) {
     if (!is_valid_run(run)) {
-      table.add(static_cast<std::int64_t>(run.seed)).add("").add("robot.valid").add(0.0).end_row();
+      table.add(run.seed).add("").add("robot.valid").add(0.0).end_row();
       continue;
     }
     for (const auto& [estimator, unused] : run.scores["estimators"].items()) {
       for (const std::string& key : score_keys(run, estimator)) {
-        table.add(static_cast<std::int64_t>(run.seed)).add(estimator).add(key);
+        table.add(run.seed).add(estimator).add(key);
         table.add(find_score(run, estimator, key)).end_row();
       }
     }

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/scoring/estimator_rows.hpp"
 #include "bench/scoring/score_record.hpp"
+#include "bench/scoring/timed_estimator.hpp"
 #include "core/files/csv.hpp"
 #include "core/trajectory.hpp"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include "bench/run/code_version.hpp"
 #include "bench/scoring/report.hpp"
 #include "bench/scoring/score_record.hpp"
 #include "bench/studies/ablation.hpp"
@@ -43,7 +42,7 @@ std::string paired_text(const PairedStatistics& cell, int digits, std::size_t ru
 
 std::string markdown_of(const Ablation& ablation, const Suite& suite) {
   std::string text = fmt::format(kAblationIntroduction, ablation.complete);
-  if (!suite.complete) text += "\n**Interrupted: of the finished runs alone.**\n";
+  if (!suite.complete) text += fmt::format("\n{}", kInterruptedNote);
   text +=
       "\n## Over all scenarios\n\nGeometric means of the ratios over the runs that are compared: "
       "not those that an estimate lacks a part of; those are lost successes.\n\n" +
@@ -70,8 +69,8 @@ CsvTable csv_of(const Ablation& ablation) {
       for (std::size_t i = 0; i < kAblationCount; ++i) {
         table.add(each.scenario).add(row.label).add(ablation_scores()[i].key);
         add_cells(cell_columns(), row.cells[i], table);
-        table.add(static_cast<std::int64_t>(row.runs));
-        table.add(static_cast<std::int64_t>(row.successes)).end_row();
+        table.add(row.runs);
+        table.add(row.successes).end_row();
       }
     }
   }
@@ -93,10 +92,10 @@ Json case_json(const AblationCase& each) {
 }
 
 Json ablation_json(const Ablation& ablation, const Suite& suite) {
-  Json json = {{"schema", kAblationSchema},      {"version", AIMS_VERSION},
-               {"code", code_version()},         {"complete", suite.complete},
-               {"estimator", ablation.complete}, {"effects", Json::object()},
-               {"scenarios", Json::array()}};
+  Json json = study_head(kAblationSchema, suite);
+  json["estimator"] = ablation.complete;
+  json["effects"] = Json::object();
+  json["scenarios"] = Json::array();
   for (const AblationEffect& each : ablation.effects) {
     Json ratios = Json::object();
     for (std::size_t i = 0; i < kAblationCount; ++i) {

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <set>
 
-#include "bench/scoring/columns.hpp"
 #include "bench/scoring/report.hpp"
 #include "bench/studies/comparison.hpp"
 

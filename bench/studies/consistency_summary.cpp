@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include "bench/run/code_version.hpp"
-#include "bench/scoring/columns.hpp"
 #include "bench/scoring/report.hpp"
 #include "bench/scoring/score_record.hpp"
 #include "bench/studies/consistency_study.hpp"
@@ -32,7 +30,7 @@ constexpr const char* kConsistencyIntroduction =
 
 std::string markdown_of(const ConsistencyStudy& study, const Suite& suite) {
   std::string text = kConsistencyIntroduction;
-  if (!suite.complete) text += "\n**Interrupted: of the finished runs alone.**\n";
+  if (!suite.complete) text += fmt::format("\n{}", kInterruptedNote);
   text += "\n## Over all instants\n\n" + to_markdown(consistency_table(study));
   text +=
       "\n## At the end\n\nRoot mean squares over seeds [m].\n\n" + to_markdown(end_table(study));
@@ -40,16 +38,30 @@ std::string markdown_of(const ConsistencyStudy& study, const Suite& suite) {
   return text + markdown_list(suite.failures);
 }
 
+/// Over time; those of consistency.csv alone have no key in consistency.json.
+TableColumns<ConsistencyInstant> instant_columns(bool in_csv) {
+  using Instant = ConsistencyInstant;
+  return {{"t_s", "", &Instant::time_s},
+          {in_csv ? "runs" : "", "", [](const Instant& at) { return at.covered.runs; }},
+          {"nees", "", &Instant::nees},
+          {"nees_low", "", [](const Instant& at) { return at.bounds.low; }},
+          {"nees_high", "", [](const Instant& at) { return at.bounds.high; }},
+          {in_csv ? "inside" : "", "", &Instant::inside},
+          {in_csv ? "fraction_in_2_sigma" : "", "",
+           [](const Instant& at) { return at.covered.fraction; }},
+          {"error_rms_m", "", &Instant::error_rms_m},
+          {"sigma_rms_m", "", &Instant::sigma_rms_m},
+          {"bound_rms_m", "", &Instant::bound_rms_m},
+          {"leg_bound_rms_m", "", &Instant::leg_bound_rms_m}};
+}
+
 CsvTable csv_of(const ConsistencyStudy& study) {
-  CsvTable table({"scenario", "estimator", "t_s", "runs", "nees", "nees_low", "nees_high", "inside",
-                  "fraction_in_2_sigma", "error_rms_m", "sigma_rms_m", "bound_rms_m",
-                  "leg_bound_rms_m"});
+  const auto columns = instant_columns(true);
+  CsvTable table(csv_header(columns, {"scenario", "estimator"}));
   for (const ConsistencyCase& each : study) {
     for (const ConsistencyInstant& at : each.result.instants) {
-      table.add(each.scenario).add(each.estimator).add(at.time_s).add(at.covered.runs);
-      table.add(at.nees).add(at.bounds.low).add(at.bounds.high).add(at.inside());
-      table.add(at.covered.fraction);
-      table.add(at.error_rms_m).add(at.sigma_rms_m).add(at.bound_rms_m).add(at.leg_bound_rms_m);
+      table.add(each.scenario).add(each.estimator);
+      add_cells(columns, at, table);
       table.end_row();
     }
   }
@@ -78,39 +90,23 @@ Json end_json(const ConsistencyInstant& end) {
           {"efficiency", json_of(end.efficiency)}};
 }
 
-/// Over time: what consistency.csv holds of the case.
-Json series_json(const std::vector<ConsistencyInstant>& instants) {
-  Json series;
-  for (const ConsistencyInstant& at : instants) {
-    series["t_s"].push_back(at.time_s);
-    series["nees"].push_back(json_of(at.nees));
-    series["nees_low"].push_back(json_of(at.bounds.low));
-    series["nees_high"].push_back(json_of(at.bounds.high));
-    series["error_rms_m"].push_back(json_of(at.error_rms_m));
-    series["sigma_rms_m"].push_back(json_of(at.sigma_rms_m));
-    series["bound_rms_m"].push_back(json_of(at.bound_rms_m));
-    series["leg_bound_rms_m"].push_back(json_of(at.leg_bound_rms_m));
-  }
-  return series;
-}
-
 /// The first run over time, as an example; null without one.
 Json example_json(const ConsistencyCase& each) {
+  using Sample = ConsistencySample;
+  static const TableColumns<Sample> columns = {
+      {"t_s", "", &Sample::time_s},
+      {"error_m", "", &Sample::error_m},
+      {"two_sigma_m", "",
+       [](const Sample& at) { return at.sigma_m ? Json(2.0 * *at.sigma_m) : Json(); }}};
   for (std::size_t i = 0; i < each.runs.size(); ++i) {
     if (each.runs[i].empty()) continue;
-    Json series;
-    for (const ConsistencySample& sample : each.runs[i]) {
-      series["t_s"].push_back(sample.time_s);
-      series["error_m"].push_back(json_of(sample.error_m));
-      series["two_sigma_m"].push_back(sample.sigma_m ? Json(2.0 * *sample.sigma_m) : Json());
-    }
-    return {{"seed", each.seeds[i]}, {"series", std::move(series)}};
+    return {{"seed", each.seeds[i]}, {"series", columns_json(columns, each.runs[i])}};
   }
   return {};
 }
 
-Json case_json(const ConsistencyCase& each) {
-  const Consistency& r = each.result;
+/// The last instant of each run.
+Json ends_json(const ConsistencyCase& each) {
   Json runs = Json::array();
   for (std::size_t i = 0; i < each.runs.size(); ++i) {
     if (each.runs[i].empty()) continue;
@@ -120,51 +116,55 @@ Json case_json(const ConsistencyCase& each) {
                     {"end_error_m", json_of(end.error_m)},
                     {"end_sigma_m", json_of(end.sigma_m)}});
   }
-  return {{"scenario", each.scenario},
-          {"estimator", each.estimator},
-          {"runs", r.runs},
-          {"instants", r.judged},
-          {"inside_fraction", json_of(r.inside_fraction)},
-          {"above_fraction", json_of(r.above_fraction)},
-          {"mean_nees", json_of(r.mean_nees)},
-          {"mean_nees_interval", interval_json(r.mean_nees_interval)},
-          {"two_sigma", coverage_json(r.two_sigma)},
-          {"error_rms_m", json_of(r.error_rms_m)},
-          {"efficiency", json_of(r.efficiency)},
-          {"end", end_json(r.end)},
-          {"series", series_json(r.instants)},
-          {"example", example_json(each)},
-          {"seeds", std::move(runs)}};
+  return runs;
+}
+
+std::string nees_text(const Consistency& result) {
+  std::string text = number_text(result.mean_nees, "{:.2f}");
+  if (result.mean_nees_interval.low)
+    text += " " + interval_text(result.mean_nees_interval, "{:.2f}");
+  return text;
+}
+
+/// Of a case in consistency.json and, where they have a title, in the table.
+const TableColumns<ConsistencyCase>& case_columns() {
+  using Case = ConsistencyCase;
+  static const TableColumns<Case> columns = {
+      {"scenario", "scenario", &Case::scenario},
+      {"estimator", "estimator", &Case::estimator},
+      {"runs", "seeds", [](const Case& c) { return c.result.runs; }},
+      {"", "mean NEES", [](const Case& c) { return nees_text(c.result); }},
+      {"instants", "", [](const Case& c) { return c.result.judged; }},
+      {"inside_fraction", "inside", [](const Case& c) { return c.result.inside_fraction; },
+       "{:.2f}"},
+      {"above_fraction", "above", [](const Case& c) { return c.result.above_fraction; }, "{:.2f}"},
+      {"mean_nees", "", [](const Case& c) { return c.result.mean_nees; }},
+      {"mean_nees_interval", "",
+       [](const Case& c) { return interval_json(c.result.mean_nees_interval); }},
+      {"two_sigma", "", [](const Case& c) { return coverage_json(c.result.two_sigma); }},
+      {"", "2 sigma", [](const Case& c) { return c.result.two_sigma.fraction; }, "{:.2f}"},
+      {"error_rms_m", "error m", [](const Case& c) { return c.result.error_rms_m; }, "{:.3f}"},
+      {"efficiency", "bound over error", [](const Case& c) { return c.result.efficiency; },
+       "{:.2f}"},
+      {"end", "", [](const Case& c) { return end_json(c.result.end); }},
+      {"series", "",
+       [](const Case& c) { return columns_json(instant_columns(false), c.result.instants); }},
+      {"example", "", example_json},
+      {"seeds", "", ends_json}};
+  return columns;
 }
 
 Json study_json(const ConsistencyStudy& study, const Suite& suite) {
-  Json json = {{"schema", kConsistencySchema},
-               {"version", AIMS_VERSION},
-               {"code", code_version()},
-               {"complete", suite.complete},
-               {"cases", Json::array()}};
+  Json json = study_head(kConsistencySchema, suite);
+  json["cases"] = rows_json(case_columns(), study);
   json["invalid"] = invalid_json(suite);
-  for (const ConsistencyCase& each : study) json["cases"].push_back(case_json(each));
   return json;
 }
 
 }  // namespace
 
 TextTable consistency_table(const ConsistencyStudy& study) {
-  TextTable table;
-  table.header = {"scenario", "estimator", "seeds",   "mean NEES",       "inside",
-                  "above",    "2 sigma",   "error m", "bound over error"};
-  for (const ConsistencyCase& each : study) {
-    const Consistency& r = each.result;
-    std::string nees = number_text(r.mean_nees, "{:.2f}");
-    if (r.mean_nees_interval.low) nees += " " + interval_text(r.mean_nees_interval, "{:.2f}");
-    table.rows.push_back(
-        {each.scenario, each.estimator, std::to_string(r.runs), nees,
-         number_text(r.inside_fraction, "{:.2f}"), number_text(r.above_fraction, "{:.2f}"),
-         number_text(r.two_sigma.fraction, "{:.2f}"), fmt::format("{:.3f}", r.error_rms_m),
-         number_text(r.efficiency, "{:.2f}")});
-  }
-  return table;
+  return rows_table(case_columns(), study);
 }
 
 TextTable end_table(const ConsistencyStudy& study) {

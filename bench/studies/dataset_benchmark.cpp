@@ -5,120 +5,23 @@
 
 #include <algorithm>
 #include <atomic>
-#include <functional>
 #include <memory>
 #include <utility>
 
 #include "bench/estimate/estimate_summary.hpp"
 #include "bench/jobs/job_id.hpp"
 #include "bench/jobs/job_runner.hpp"
-#include "bench/jobs/process_pool.hpp"
 #include "bench/run/code_version.hpp"
-#include "bench/scoring/columns.hpp"
 #include "bench/scoring/report.hpp"
 #include "bench/scoring/score_list.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "core/files/config_dump.hpp"
-#include "core/stopwatch.hpp"
 #include "core/text.hpp"
 
 namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A job that reads a recording in place of a simulated sequence.
-struct RecordedJob {
-  Job job;                                                   ///< under its id
-  std::function<JobResult(std::atomic<double>& part)> work;  ///< in a process of its own
-};
-
-constexpr double kPatience = 0.2;  ///< between looks at the observer [s]
-
-/// Stores what the work came to; the reply is an error text, or empty.
-std::string do_job(const RecordedJob& each, const JobStore& store, std::atomic<double>& part) {
-  const Stopwatch stopwatch;
-  JobResult result = each.work(part);
-  result.wall_s = stopwatch.seconds();
-  const auto stored = store.put(each.job, result);
-  return stored ? "" : stored.error().message;
-}
-
-/// A process that ended by itself says nothing, or why nothing could be stored.
-Result<void> take(const EndedProcess& ended, const RecordedJob& each, const JobStore& store) {
-  if (ended.end == ProcessEnd::kReturned) {
-    return ended.text.empty() ? Result<void>() : failure(ended.text);
-  }
-  const bool late = ended.end == ProcessEnd::kTimedOut;
-  JobResult result;
-  result.outcome = late ? JobOutcome::kTimedOut : JobOutcome::kCrashed;
-  result.message = late ? "stopped after its time" : "crashed: " + ended.text;
-  return store.put(each.job, result);
-}
-
-/// The jobs without a result, and those to be done again.
-std::vector<const RecordedJob*> missing_jobs(const std::vector<RecordedJob>& jobs,
-                                             const JobStore& store, const JobOptions& options) {
-  std::vector<const RecordedJob*> missing;
-  for (const RecordedJob& each : jobs) {
-    const auto known = store.find(each.job.id);
-    const bool failed = known && known->outcome != JobOutcome::kDone;
-    if (!known || options.redo || (options.retry && failed)) missing.push_back(&each);
-  }
-  return missing;
-}
-
-JobProgress progress_of(const JobRun& run, std::size_t total, double under_way,
-                        const Stopwatch& stopwatch) {
-  JobProgress progress;
-  progress.done = run.done;
-  progress.failed = run.failed;
-  progress.total = total;
-  progress.fraction = (static_cast<double>(run.done) + under_way) /
-                      static_cast<double>(std::max<std::size_t>(1, total));
-  progress.elapsed_s = stopwatch.seconds();
-  return progress;
-}
-
-/// Does those of the jobs that `options.out` lacks, each in a process of its own, as `run_jobs`
-/// does those on simulated sequences.
-Result<JobRun> run_recorded_jobs(const std::vector<RecordedJob>& jobs, const JobOptions& options,
-                                 const JobObserver& observer) {
-  const auto claim = claim_store(options.out);
-  if (!claim) return tl::unexpected(claim.error());
-  const JobStore store(options.out);
-  std::vector<Job> listed;
-  for (const RecordedJob& each : jobs) listed.push_back(each.job);
-  if (auto entered = store.enter(listed, "", false); !entered) {
-    return tl::unexpected(entered.error());
-  }
-  JobRun run;
-  const auto missing = missing_jobs(jobs, store, options);
-  run.reused = jobs.size() - missing.size();
-  const Stopwatch stopwatch;
-  ProcessPool pool(options.jobs);
-  std::size_t next = 0;
-  while (run.complete && (next < missing.size() || !pool.is_idle())) {
-    for (; next < missing.size() && pool.has_room(); ++next) {
-      const RecordedJob& each = *missing[next];
-      const auto work = [&each, &store](std::atomic<double>& part) {
-        return do_job(each, store, part);
-      };
-      if (auto started = pool.start(next, options.timeout_s, work); !started) {
-        return tl::unexpected(started.error());
-      }
-    }
-    for (const EndedProcess& ended : pool.wait(kPatience)) {
-      const RecordedJob& each = *missing[ended.key];
-      if (auto taken = take(ended, each, store); !taken) return tl::unexpected(taken.error());
-      ++run.done;
-      const auto result = store.find(each.job.id);
-      run.failed += result && result->outcome == JobOutcome::kDone ? 0 : 1;
-    }
-    run.complete = observer(progress_of(run, missing.size(), pool.part_under_way(), stopwatch));
-  }
-  return run;
-}
 
 /// Everything that decides the result, in words.
 std::string id_of(DatasetProfile profile, const DatasetSequence& sequence,
@@ -296,11 +199,10 @@ std::string markdown(const DatasetBenchmark& benchmark) {
 
 Result<DatasetBenchmark> run_dataset_benchmark(DatasetProfile profile,
                                                std::vector<DatasetSequence> sequences,
-                                               const JobOptions& options,
-                                               const JobObserver& observer) {
+                                               JobOptions options, const JobObserver& observer) {
   DatasetBenchmark benchmark{std::move(profile), std::move(sequences), {}};
   const JobStore store(options.out);
-  std::vector<RecordedJob> jobs;
+  std::vector<Job> jobs;
   for (const DatasetSequence& sequence : benchmark.sequences) {
     auto scenario = std::make_shared<Scenario>();
     scenario->name = sequence.name;
@@ -310,15 +212,20 @@ Result<DatasetBenchmark> run_dataset_benchmark(DatasetProfile profile,
       auto spec = parse_estimator_spec(text);
       if (!spec) return tl::unexpected(spec.error());
       const std::string id = id_of(benchmark.profile, sequence, *spec);
-      const auto work = [&benchmark, &sequence, spec = *spec,
-                         folder = store.outputs_of(id)](std::atomic<double>& part) {
+      benchmark.suite.jobs.push_back({scenario, 0, *spec, id});
+      jobs.push_back(benchmark.suite.jobs.back());
+      jobs.back().recorded = [&benchmark, &sequence, spec = *spec,
+                              folder = store.outputs_of(id)](std::atomic<double>& part) {
         return result_of(benchmark.profile, sequence, spec, folder, part);
       };
-      jobs.push_back({{scenario, 0, *spec, id}, work});
-      benchmark.suite.jobs.push_back(jobs.back().job);
     }
   }
-  const auto run = run_recorded_jobs(jobs, options, observer);
+  const auto claim = claim_store(options.out);
+  if (!claim) return tl::unexpected(claim.error());
+  const auto entered = store.enter(jobs, "", false);
+  if (!entered) return tl::unexpected(entered.error());
+  options.cache_limit = 0;  // the cache of simulated sequences stays as it is
+  const auto run = JobRunner(std::move(options)).run(jobs, observer);
   if (!run) return tl::unexpected(run.error());
   benchmark.suite.run = *run;
   collect_suite(store, benchmark.suite);

@@ -23,8 +23,7 @@ struct DatasetBenchmark {
 /// Does what `options.out` lacks, each estimator on each sequence in a process of its own.
 Result<DatasetBenchmark> run_dataset_benchmark(DatasetProfile profile,
                                                std::vector<DatasetSequence> sequences,
-                                               const JobOptions& options,
-                                               const JobObserver& observer);
+                                               JobOptions options, const JobObserver& observer);
 
 /// A row per sequence: the score of each estimator here, then the published ones.
 TextTable benchmark_table(const DatasetBenchmark& benchmark);

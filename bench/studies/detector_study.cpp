@@ -6,9 +6,8 @@
 
 #include "bench/jobs/sequence_cache.hpp"
 #include "bench/run/run_localizability.hpp"
-#include "bench/scoring/estimator_files.hpp"
+#include "bench/scoring/result_files.hpp"
 #include "bench/scoring/tables.hpp"
-#include "bench/studies/detector_summary.hpp"
 #include "bench/studies/detectors.hpp"
 #include "core/files/csv_columns.hpp"
 

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/studies/detector_summary.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
 
-#include "bench/scoring/columns.hpp"
 #include "bench/scoring/report.hpp"
+#include "bench/studies/detectors.hpp"
 
 namespace aims {
 namespace {

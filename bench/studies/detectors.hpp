@@ -13,6 +13,7 @@
 #include "bench/metrics/statistics.hpp"
 #include "bench/studies/suite.hpp"
 #include "core/error.hpp"
+#include "core/files/table.hpp"
 #include "estimator/estimator.hpp"
 
 namespace aims {
@@ -86,5 +87,15 @@ struct DetectorStudy {
 /// trajectories in the store `folder`. Error when the estimator has no diagnostics of scans, or a
 /// file cannot be read.
 Result<DetectorStudy> detector_study(const Suite& suite, const std::filesystem::path& folder);
+
+/// The pooled scores as a table: an index per row, and per level AUC with its interval, detections
+/// at 5 % false alarms, median delay and missed onsets.
+TextTable detector_table(std::span<const DetectorScore> scores);
+
+/// Why some scores have no value, a line per level and set of runs that the truth never changes in.
+std::vector<std::string> undecided_levels(std::span<const DetectorScore> scores);
+
+/// Writes detectors.json, detectors.csv and detectors.md into `folder`.
+Result<void> write_detectors(const DetectorStudy& study, const std::filesystem::path& folder);
 
 }  // namespace aims

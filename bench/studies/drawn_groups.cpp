@@ -91,6 +91,56 @@ void add_bins(const std::string& scenario, const std::vector<RunRecord>& runs,
   }
 }
 
+/// One estimator in one group.
+struct GroupRow {
+  DrawnGroup group;
+  GroupScores scores;
+};
+
+std::vector<GroupRow> rows_of(const std::vector<DrawnGroup>& groups) {
+  std::vector<GroupRow> rows;
+  for (const DrawnGroup& group : groups) {
+    for (const GroupScores& each : group.estimators) rows.push_back({group, each});
+  }
+  return rows;
+}
+
+std::string success_text(const GroupScores& scores) {
+  const std::string text = SuccessRate{scores.successes, scores.runs}.text();
+  return scores.failed > 0 ? fmt::format("{}, {} failed", text, scores.failed) : text;
+}
+
+TableColumns<GroupRow> group_columns() {
+  using Row = GroupRow;
+  TableColumns<Row> columns = {
+      {"scenario", "scenario", [](const Row& row) { return row.group.scenario; }},
+      {"group", "group", [](const Row& row) { return row.group.label; }},
+      {"low", "", [](const Row& row) { return row.group.low; }},
+      {"high", "", [](const Row& row) { return row.group.high; }},
+      {"estimator", "estimator", [](const Row& row) { return row.scores.estimator; }},
+      {"runs", "", [](const Row& row) { return row.scores.runs; }},
+      {"successes", "", [](const Row& row) { return row.scores.successes; }},
+      {"", std::string(success_scores()[0].title),
+       [](const Row& row) { return success_text(row.scores); }},
+      {"", std::string(success_scores()[1].title),
+       [](const Row& row) { return row.scores.strict.text(); }},
+      {"successes_1_percent", "", [](const Row& row) { return row.scores.strict.count; }},
+      {"failed", "", [](const Row& row) { return row.scores.failed; }},
+      {"partial", "", [](const Row& row) { return row.scores.partial ? 1 : 0; }},
+      {"invalid", "", [](const Row& row) { return row.group.invalid; }}};
+  for (std::size_t i = 0; i < kHeadlineCount; ++i) {
+    const Score& score = headline_scores()[i];
+    columns.push_back({std::string(score.key) + ".median", "",
+                       [i](const Row& row) { return row.scores.medians[i]; }});
+    columns.push_back({"", title_with_unit(score), [i, digits = score.digits](const Row& row) {
+                         const auto& median = row.scores.medians[i];
+                         return number_text(median, fmt::format("{{:.{}f}}", digits)) +
+                                part_mark(median && row.scores.partial);
+                       }});
+  }
+  return columns;
+}
+
 /// Error that names the keys that the runs have drawn.
 tl::unexpected<Error> no_such_key(const StoredResults& results, const std::string& key) {
   std::set<std::string> known;
@@ -146,26 +196,7 @@ Result<std::vector<DrawnGroup>> group_by_drawn(const StoredResults& results, con
 }
 
 TextTable groups_table(const std::vector<DrawnGroup>& groups) {
-  TextTable table;
-  table.header = {"scenario", "group", "estimator"};
-  for (const Score& score : success_scores()) table.header.emplace_back(score.title);
-  for (const Score& score : headline_scores()) table.header.push_back(title_with_unit(score));
-  for (const DrawnGroup& group : groups) {
-    for (const GroupScores& each : group.estimators) {
-      const std::string failed =
-          each.failed > 0 ? fmt::format(", {} failed", each.failed) : std::string();
-      std::vector<std::string> row = {group.scenario, group.label, each.estimator,
-                                      SuccessRate{each.successes, each.runs}.text() + failed,
-                                      each.strict.text()};
-      for (std::size_t i = 0; i < kHeadlineCount; ++i) {
-        row.push_back(
-            number_text(each.medians[i], fmt::format("{{:.{}f}}", headline_scores()[i].digits)) +
-            part_mark(each.medians[i] && each.partial));
-      }
-      table.rows.push_back(std::move(row));
-    }
-  }
-  return table;
+  return rows_table(group_columns(), rows_of(groups));
 }
 
 std::string groups_legend(const std::vector<DrawnGroup>& groups) {
@@ -177,34 +208,6 @@ std::string groups_legend(const std::vector<DrawnGroup>& groups) {
     return std::ranges::any_of(group.estimators, is_marked);
   });
   return any ? kPartLegend : "";
-}
-
-CsvTable groups_csv(const std::vector<DrawnGroup>& groups) {
-  std::vector<std::string> header = {"scenario",  "group",   "low",       "high",
-                                     "estimator", "runs",    "successes", "successes_1_percent",
-                                     "failed",    "partial", "invalid"};
-  for (const Score& score : headline_scores()) {
-    header.push_back(std::string(score.key) + ".median");
-  }
-  CsvTable table(header);
-  for (const DrawnGroup& group : groups) {
-    for (const GroupScores& each : group.estimators) {
-      table.add(group.scenario)
-          .add(group.label)
-          .add(group.low)
-          .add(group.high)
-          .add(each.estimator)
-          .add(static_cast<std::int64_t>(each.runs))
-          .add(static_cast<std::int64_t>(each.successes))
-          .add(static_cast<std::int64_t>(each.strict.count))
-          .add(static_cast<std::int64_t>(each.failed))
-          .add(static_cast<std::int64_t>(each.partial))
-          .add(static_cast<std::int64_t>(group.invalid));
-      for (const auto& median : each.medians) table.add(median);
-      table.end_row();
-    }
-  }
-  return table;
 }
 
 Json groups_json(const std::vector<DrawnGroup>& groups, const std::string& key,
@@ -240,7 +243,7 @@ Result<void> write_groups(const std::vector<DrawnGroup>& groups, const std::stri
   return write_report({.name = "groups",
                        .markdown = fmt::format("# {} by {}\n\n{}{}", source, key,
                                                to_markdown(groups_table(groups)), legend),
-                       .csv = groups_csv(groups),
+                       .csv = rows_csv(group_columns(), rows_of(groups)),
                        .json = groups_json(groups, key, source)},
                       folder);
 }

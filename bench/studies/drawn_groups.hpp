@@ -23,7 +23,7 @@ struct GroupScores {
   std::string estimator;
   std::size_t runs = 0;  ///< valid ones, with those on which it failed
   std::size_t successes = 0;
-  std::size_t failed = 0;  ///< of the runs
+  std::size_t failed = 0;                      ///< of the runs
   bool partial = false;                        ///< of some run the estimate lacks a part
   SuccessRate strict;                          ///< within 1 %
   std::vector<std::optional<double>> medians;  ///< in the order of `headline_scores()`
@@ -50,8 +50,6 @@ TextTable groups_table(const std::vector<DrawnGroup>& groups);
 
 /// What the marks mean that stand in that table; empty without one.
 std::string groups_legend(const std::vector<DrawnGroup>& groups);
-
-CsvTable groups_csv(const std::vector<DrawnGroup>& groups);
 
 /// What groups.json holds (schema aims.groups/1).
 Json groups_json(const std::vector<DrawnGroup>& groups, const std::string& key,

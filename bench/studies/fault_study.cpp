@@ -14,7 +14,6 @@
 #include "bench/run/evaluate.hpp"
 #include "bench/scoring/report.hpp"
 #include "bench/scoring/score_statistics.hpp"
-#include "core/files/csv.hpp"
 
 namespace aims {
 namespace {
@@ -186,15 +185,17 @@ TextTable fault_table(const std::vector<FaultCase>& cases) {
 
 Result<void> write_faults(const std::vector<FaultCase>& cases, const std::string& sequence,
                           const std::filesystem::path& folder) {
-  CsvTable csv({"fault", "estimator", "success", "partial", "ate_m", "worst_state", "first_alarm_s",
-                "reasons", "alarm_fraction", "silent"});
-  for (const FaultCase& each : cases) {
-    csv.add(each.fault).add(each.estimator).add(each.success).add(each.partial);
-    csv.add(each.ate_m);
-    csv.add(state_text(each)).add(each.first_alarm_s).add(each.reasons);
-    csv.add(each.alarm_fraction).add(each.silent);
-    csv.end_row();
-  }
+  using Case = FaultCase;
+  static const TableColumns<Case> columns = {{"fault", "", &Case::fault},
+                                             {"estimator", "", &Case::estimator},
+                                             {"success", "", &Case::success},
+                                             {"partial", "", &Case::partial},
+                                             {"ate_m", "", &Case::ate_m},
+                                             {"worst_state", "", state_text},
+                                             {"first_alarm_s", "", &Case::first_alarm_s},
+                                             {"reasons", "", &Case::reasons},
+                                             {"alarm_fraction", "", &Case::alarm_fraction},
+                                             {"silent", "", &Case::silent}};
   const auto silent = std::ranges::count_if(cases, &FaultCase::silent);
   const std::string text = fmt::format(
       "# Faults on {}\n\n{} of {} cases fail unnoticed (SILENT). Cells: ATE [m], aligned at the "
@@ -202,7 +203,8 @@ Result<void> write_faults(const std::vector<FaultCase>& cases, const std::string
       "(part: over the part of the run that has poses alone), and the worst state that the "
       "estimator reported.\n\n{}",
       sequence, silent, cases.size(), to_markdown(fault_table(cases)));
-  return write_report({.name = "faults", .markdown = text, .csv = csv}, folder);
+  return write_report({.name = "faults", .markdown = text, .csv = rows_csv(columns, cases)},
+                      folder);
 }
 
 }  // namespace aims

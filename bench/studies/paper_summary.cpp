@@ -102,9 +102,7 @@ CsvTable paper_csv(const std::vector<PaperExperiment>& experiments) {
         table.add(experiment.scenario).add(experiment.orders[i].score.key).add(system.estimator);
         table.add(system.method);
         add_cells(cell_columns(), system.cells[i], table);
-        table.add(static_cast<std::int64_t>(system.runs))
-            .add(static_cast<std::int64_t>(system.successes))
-            .end_row();
+        table.add(system.runs).add(system.successes).end_row();
       }
     }
   }

@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include "bench/metrics/statistics.hpp"
-#include "bench/run/code_version.hpp"
-#include "bench/scoring/columns.hpp"
 #include "bench/scoring/report.hpp"
 #include "bench/scoring/score_record.hpp"
 #include "bench/studies/sensitivity.hpp"
@@ -46,7 +44,7 @@ std::string sensitivity_markdown(const SettingSensitivity& sensitivity, const Su
   const std::string ate = number_text(sensitivity.median_ate, "{:.3f} m", "none");
   std::string text =
       fmt::format(kSensitivityIntroduction, sensitivity.estimator, sensitivity.sequences, ate);
-  if (!suite.complete) text += "\n**Interrupted: of the finished runs alone.**\n";
+  if (!suite.complete) text += fmt::format("\n{}", kInterruptedNote);
   text += "\n" + to_markdown(sensitivity_table(sensitivity));
   for (const std::string& line : left_out_lines(suite)) text += fmt::format("\n- {}", line);
   return text + markdown_list(suite.failures);
@@ -65,14 +63,11 @@ CsvTable sensitivity_csv(const SettingSensitivity& sensitivity) {
 }
 
 Json sensitivity_json(const SettingSensitivity& sensitivity, const Suite& suite) {
-  Json json = {{"schema", kSensitivitySchema},
-               {"version", AIMS_VERSION},
-               {"code", code_version()},
-               {"complete", suite.complete},
-               {"estimator", sensitivity.estimator},
-               {"sequences", sensitivity.sequences},
-               {"median_ate_yaw_m", json_of(sensitivity.median_ate)},
-               {"settings", Json::object()}};
+  Json json = study_head(kSensitivitySchema, suite);
+  json["estimator"] = sensitivity.estimator;
+  json["sequences"] = sensitivity.sequences;
+  json["median_ate_yaw_m"] = json_of(sensitivity.median_ate);
+  json["settings"] = Json::object();
   for (const SensitivityRow& row : sensitivity.rows) {
     json["settings"][row.key] = {{"value", row.value},
                                  {"changes", rows_json(cell_columns(), row.cells)}};

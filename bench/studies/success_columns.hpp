@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "bench/scoring/columns.hpp"
+#include "bench/scoring/report.hpp"
 #include "bench/scoring/score_statistics.hpp"
 
 namespace aims {

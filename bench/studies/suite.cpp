@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bench/jobs/stored_results.hpp"
+#include "bench/run/code_version.hpp"
 
 namespace aims {
 namespace {
@@ -119,6 +120,13 @@ std::vector<std::string> left_out_lines(const Suite& suite) {
     if (!text.empty()) lines.push_back(fmt::format("{}: {}", each.scenario.name, text));
   }
   return lines;
+}
+
+Json study_head(std::string_view schema, const Suite& suite) {
+  return {{"schema", schema},
+          {"version", AIMS_VERSION},
+          {"code", code_version()},
+          {"complete", suite.complete}};
 }
 
 Json invalid_json(const Suite& suite) {

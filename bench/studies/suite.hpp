@@ -52,6 +52,10 @@ void collect_suite(const JobStore& store, Suite& suite);
 /// "severity_3: 1 of 5 runs are invalid and left out: seed 2 (the robot fell at 1.2 s)".
 std::vector<std::string> left_out_lines(const Suite& suite);
 
+/// What the JSON document of every study over a suite begins with: schema, version, code and
+/// whether all jobs have ended.
+Json study_head(std::string_view schema, const Suite& suite);
+
 /// The invalid runs, each with scenario, seed and reason.
 Json invalid_json(const Suite& suite);
 

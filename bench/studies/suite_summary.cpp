@@ -3,12 +3,10 @@
 
 #include <algorithm>
 
-#include "bench/run/code_version.hpp"
 #include "bench/scoring/json_text.hpp"
 #include "bench/scoring/report.hpp"
 #include "bench/studies/families.hpp"
 #include "bench/studies/success_pairs.hpp"
-#include "bench/studies/suite_tables.hpp"
 #include "core/files/atomic_file.hpp"
 #include "estimator/estimator_spec.hpp"
 #include "estimator/registry.hpp"
@@ -91,14 +89,11 @@ std::vector<std::string> estimators_of(const Suite& suite) {
 }
 
 Json suite_json(const Suite& suite) {
-  Json json = {{"schema", kSuiteSchema},
-               {"version", AIMS_VERSION},
-               {"code", code_version()},
-               {"complete", suite.complete},
-               {"interval", "95 % percentile bootstrap of the median over seeds, 1000 replicates"},
-               {"scenarios", Json::array()},
-               {"failures", failures_json(suite.failures)},
-               {"settings", suite.settings}};
+  Json json = study_head(kSuiteSchema, suite);
+  json["interval"] = "95 % percentile bootstrap of the median over seeds, 1000 replicates";
+  json["scenarios"] = Json::array();
+  json["failures"] = failures_json(suite.failures);
+  json["settings"] = suite.settings;
   for (const SuiteCase& each : suite.cases) json["scenarios"].push_back(case_json(each));
   return json;
 }
@@ -111,10 +106,7 @@ Json suite_document(const Suite& suite) {
 }
 
 bool holds_suite(const std::filesystem::path& folder) {
-  const auto text = read_file(folder / "suite.json");
-  if (!text) return false;
-  const auto json = parse_json(*text, "suite.json");
-  return json && json->is_object() && value_in(*json, "schema", "") == kSuiteSchema;
+  return read_json_of(folder / "suite.json", kSuiteSchema).has_value();
 }
 
 Result<void> write_suite(const Suite& suite, const std::filesystem::path& folder) {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/studies/suite_tables.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "bench/scoring/json_text.hpp"
+#include "bench/scoring/report.hpp"
 #include "bench/studies/success_pairs.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "estimator/estimator_spec.hpp"
@@ -75,7 +74,7 @@ void add_start(const Scenario& scenario, std::uint64_t seed, CsvTable& table) {
   } else {
     table.add(scenario.level);
   }
-  table.add(static_cast<std::int64_t>(seed));
+  table.add(seed);
 }
 
 std::string expectations_markdown(const Suite& suite) {
@@ -177,7 +176,7 @@ TextTable breaks_table(const std::vector<FamilyResult>& families) {
 std::string suite_markdown(const Suite& suite, const std::vector<FamilyResult>& families) {
   std::string text = "# Suite\n\n";
   if (!suite.settings.empty()) text += settings_markdown(suite.settings) + "\n";
-  if (!suite.complete) text += "**Interrupted: of the finished runs alone.**\n\n";
+  if (!suite.complete) text += fmt::format("{}\n", kInterruptedNote);
   text +=
       "Each cell: median [95 % bootstrap interval of the median] worst, over seeds. Below about\n"
       "ten seeds the intervals are coarse and too narrow; with one seed there are none.\n";
@@ -247,7 +246,7 @@ CsvTable timings_csv(const Suite& suite) {
     for (const RunRecord& run : each.runs) {
       for (const std::string& estimator : labels_of(each.scenario.run)) {
         if (estimator_in(run, estimator).is_null()) continue;
-        table.add(each.scenario.name).add(static_cast<std::int64_t>(run.seed)).add(estimator);
+        table.add(each.scenario.name).add(run.seed).add(estimator);
         table.add(value_in(run.scores, "simulated_s", 0.0));
         table.add(value_in(value_in(run.scores, "wall_s", Json()), estimator, 0.0));
         table.add(find_score(run, estimator, "time_per_scan_ms.mean"));

@@ -8,8 +8,8 @@
 #include "bench/jobs/sequence_cache.hpp"
 #include "bench/run/sequence.hpp"
 #include "bench/run/summary.hpp"
-#include "bench/scoring/estimator_files.hpp"
 #include "bench/scoring/json_text.hpp"
+#include "bench/scoring/result_files.hpp"
 #include "bench/scoring/score_record.hpp"
 #include "bench/scoring/tables.hpp"
 #include "bench/studies/suite_summary.hpp"
@@ -47,13 +47,7 @@ void remove_written(const fs::path& folder) {
 
 /// Does so in each folder seed-N of `parent`.
 void remove_seeds(const fs::path& parent) {
-  std::error_code ignored;
-  std::vector<fs::path> seeds;
-  for (const auto& entry : fs::directory_iterator(parent, ignored)) {
-    const bool is_seed = entry.path().filename().string().starts_with("seed-");
-    if (is_seed && entry.is_directory(ignored)) seeds.push_back(entry.path());
-  }
-  for (const fs::path& seed : seeds) remove_written(seed);
+  for (const fs::path& seed : seed_folders_in(parent)) remove_written(seed);
 }
 
 /// Links the outputs of the run's jobs under the labels of their estimators; their names.
@@ -124,9 +118,7 @@ Result<void> write_run(const JobStore& store, const Suite& suite, const SuiteCas
   const RunRecord own{record.seed, run_scores(each.scenario, record)};
   auto written =
       write_file_atomically(folder / "config.yaml", effective_config(each.scenario, record.seed));
-  if (written) written = write_csv(folder / "scores.csv", scores_csv({&own, 1}));
-  if (written)
-    written = write_file_atomically(folder / "scores.json", json_text(own.scores, 2) + "\n");
+  if (written) written = write_record(own, folder);
   return written ? write_manifest(folder, *files) : written;
 }
 
@@ -153,7 +145,7 @@ std::vector<fs::path> run_folders(const Suite& suite, const fs::path& out) {
   const bool several = has_several_seeds(suite);
   std::vector<fs::path> folders;
   for (const RunRecord& run : suite.cases.front().runs) {
-    folders.push_back(several ? out / fmt::format("seed-{}", run.seed) : out);
+    folders.push_back(several ? out / seed_folder_name(run.seed) : out);
   }
   return folders;
 }
@@ -174,7 +166,7 @@ Result<void> write_runs(const Suite& suite, const fs::path& out) {
 }
 
 fs::path suite_run_folder(const fs::path& out, const std::string& scenario, std::uint64_t seed) {
-  return out / "runs" / scenario / fmt::format("seed-{}", seed);
+  return out / "runs" / scenario / seed_folder_name(seed);
 }
 
 Result<void> write_suite_runs(const Suite& suite, const fs::path& out) {

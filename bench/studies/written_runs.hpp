@@ -12,7 +12,7 @@ namespace aims {
 
 /// Writes the results of one scenario and seed as `aims run` shows them into `folder`: scores.json,
 /// scores.csv, config.yaml, the files of the sequence (bench/run/sequence.hpp) and of each
-/// estimator (bench/scoring/estimator_files.hpp). Those that jobs made are linked, not copied,
+/// estimator (bench/scoring/result_files.hpp). Those that jobs made are linked, not copied,
 /// where the disk can.
 Result<void> write_run(const JobStore& store, const Suite& suite, const SuiteCase& each,
                        const RunRecord& record, const std::filesystem::path& folder);

@@ -11,7 +11,7 @@
 #include "bench/scoring/score_statistics.hpp"
 #include "bench/tuning/effect.hpp"
 #include "bench/tuning/held_out.hpp"
-#include "bench/tuning/values_text.hpp"
+#include "bench/tuning/range_key.hpp"
 
 namespace aims {
 namespace {
@@ -112,11 +112,25 @@ std::string unresolved_text(const BestPoint& best, const Effect& effect) {
                      change_text(*best.gain_interval.low), change_text(*best.gain_interval.high));
 }
 
-std::string standing_of(const BestPoint& best, const Effect& effect) {
-  if (best.is_default()) return kKeepDefaults;
-  if (!is_resolved(best, effect)) return "least, not resolved";
+Standing standing_of(const BestPoint& best, const Effect& effect) {
+  if (best.is_default()) return Standing::kKeepDefaults;
+  if (!is_resolved(best, effect)) return Standing::kUnresolved;
   const bool small = effect.small || (best.gain && *best.gain <= kMinChange);
-  return small ? "least, too little to matter" : kBestStanding;
+  return small ? Standing::kSmall : Standing::kBest;
+}
+
+std::string_view name_of(Standing standing) {
+  switch (standing) {
+    case Standing::kKeepDefaults:
+      return "least: keep the defaults";
+    case Standing::kBest:
+      return "best";
+    case Standing::kSmall:
+      return "least, too little to matter";
+    case Standing::kUnresolved:
+      break;
+  }
+  return "least, not resolved";
 }
 
 Result<BestPoint> best_point(const ResponseTable& table, const Objective& objective) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/metrics/statistics.hpp"
@@ -42,12 +43,17 @@ bool is_resolved(const BestPoint& best, const Effect& effect);
 /// the points tell a best one and its gain is not resolved; else empty.
 std::string unresolved_text(const BestPoint& best, const Effect& effect);
 
-/// What the point is: of the defaults "least: keep the defaults"; else "best" where it is resolved,
-/// "least, not resolved" where not, "least, too little to matter" of a gain that comparisons call
-/// small.
-std::string standing_of(const BestPoint& best, const Effect& effect);
-inline constexpr const char* kBestStanding = "best";
-inline constexpr const char* kKeepDefaults = "least: keep the defaults";
+/// What the point is.
+enum class Standing {
+  kKeepDefaults,  ///< no other is better
+  kBest,          ///< resolved
+  kSmall,         ///< likewise, by a gain that comparisons call small
+  kUnresolved,
+};
+Standing standing_of(const BestPoint& best, const Effect& effect);
+
+/// "least: keep the defaults", "best", "least, too little to matter", "least, not resolved".
+std::string_view name_of(Standing standing);
 
 /// The point with the least objective over the cases; of those alike but for rounding the one next
 /// to the defaults, themselves first. None when none has an objective.

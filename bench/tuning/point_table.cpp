@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "bench/metrics/statistics.hpp"
-#include "bench/scoring/columns.hpp"
+#include "bench/scoring/report.hpp"
 #include "bench/scoring/score_statistics.hpp"
 #include "bench/tuning/analysis.hpp"
 #include "bench/tuning/effect.hpp"
@@ -60,13 +60,13 @@ std::vector<PointSummary> summaries_of(const SweepResponse& response, const Obje
   const ResponseTable& table = response.table;
   const auto best = best_point(table, objective);
   const Effect effect = effect_of(table, objective);
-  const std::string standing = best ? standing_of(*best, effect) : "";
+  const std::string_view standing = best ? name_of(standing_of(*best, effect)) : "";
   std::vector<PointSummary> summaries;
   const auto add = [&](std::size_t point) {
     summaries.push_back(summary_of(table, objective, point));
     summaries.back().is_best = best && best->point == point;
     summaries.back().is_resolved = best && is_resolved(*best, effect);
-    summaries.back().best_mark = " " + standing;
+    summaries.back().best_mark = fmt::format(" {}", standing);
   };
   if (!table.default_runs.empty()) add(kDefaults);
   for (std::size_t k = 0; k < table.points.size(); ++k) {

@@ -128,11 +128,18 @@ std::string best_markdown(const ResponseTable& table, const Objective& objective
                      other_points(table), figures, of_defaults);
 }
 
-/// "Least objective, not resolved" of "least, not resolved".
-std::string heading_of(const std::string& standing) {
-  if (standing == kBestStanding) return "Best values";
-  if (standing == kKeepDefaults) return "Keep the defaults";
-  return "Least objective" + standing.substr(standing.find(','));
+std::string_view heading_of(Standing standing) {
+  switch (standing) {
+    case Standing::kKeepDefaults:
+      return "Keep the defaults";
+    case Standing::kBest:
+      return "Best values";
+    case Standing::kSmall:
+      return "Least objective, too little to matter";
+    case Standing::kUnresolved:
+      break;
+  }
+  return "Least objective, not resolved";
 }
 
 /// What the best point gains over the defaults.

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "bench/scoring/columns.hpp"
+#include "bench/scoring/report.hpp"
 #include "bench/scoring/validity.hpp"
 #include "bench/tuning/sweep_plan.hpp"
 #include "bench/tuning/sweep_store.hpp"
@@ -20,8 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kMissing = "missing";
 constexpr const char* kInvalid = "invalid";
-
-bool is_done(const MergedJob& job) { return job.outcome() == name_of(JobOutcome::kDone); }
 
 /// The file of a job; null when it is not there or no such file.
 Json file_of(const JobStore& folder, const std::string& id) {
@@ -109,9 +107,11 @@ class Versions {
 }  // namespace
 
 std::string MergedJob::outcome() const {
-  if (file.is_null()) return kMissing;
+  if (is_missing()) return kMissing;
   return invalid() ? kInvalid : value_in(file, "outcome", kMissing);
 }
+
+bool MergedJob::is_done() const { return outcome() == name_of(JobOutcome::kDone); }
 
 std::optional<std::string> MergedJob::invalid() const {
   if (!file.is_object() || !file.contains("sequence")) return std::nullopt;
@@ -159,8 +159,8 @@ Result<MergedSweep> merge_sweeps(std::span<const fs::path> folders) {
       Json file = file_of(folder, id);
       if (file.is_null()) continue;
       const bool done = value_in(file, "outcome", "") == name_of(JobOutcome::kDone);
-      if (!job.file.is_null() && done != is_done(job)) ++sweep.repeated;
-      if (!is_done(job)) job.file = std::move(file);
+      if (!job.file.is_null() && done != job.is_done()) ++sweep.repeated;
+      if (!job.is_done()) job.file = std::move(file);
     }
   }
   // A later folder may list what an earlier one has a result of.
@@ -173,7 +173,7 @@ Result<void> write_sweep_csv(const MergedSweep& sweep, const fs::path& file) {
   Columns parameters;
   Columns scores;
   for (const MergedJob& job : sweep.jobs) {
-    if (!is_done(job)) continue;
+    if (!job.is_done()) continue;
     for (const auto& [key, unused] : member(job.file, "settings").items()) parameters.add(key);
     visit_leaves(member(job.file, "scores"), "",
                  [&](const std::string& key, const Json&) { scores.add(key); });
@@ -186,7 +186,7 @@ Result<void> write_sweep_csv(const MergedSweep& sweep, const fs::path& file) {
   for (const MergedJob& job : sweep.jobs) {
     table.add(job.listed.id).add(job.listed.scenario).add(job.listed.seed);
     table.add(job.listed.estimator).add(job.outcome());
-    if (is_done(job)) {
+    if (job.is_done()) {
       std::map<std::string, Json> found;
       visit_leaves(member(job.file, "scores"), "",
                    [&](const std::string& key, const Json& value) { found[key] = value; });

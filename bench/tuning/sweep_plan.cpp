@@ -2,18 +2,17 @@
 #include "bench/tuning/sweep_plan.hpp"
 
 #include <fmt/format.h>
+#include <system_error>
 
 #include <algorithm>
 #include <map>
 #include <memory>
 #include <set>
-#include <system_error>
 #include <utility>
 
 #include "bench/jobs/job_id.hpp"
 #include "bench/scenario/catalogue.hpp"
 #include "bench/scenario/seeds.hpp"
-#include "bench/tuning/plan_paths.hpp"
 #include "bench/tuning/range_key.hpp"
 #include "bench/tuning/scenario_variants.hpp"
 #include "core/files/atomic_file.hpp"
@@ -354,6 +353,28 @@ Result<std::vector<Job>> plan_jobs(const SweepPlan& plan, const fs::path& folder
     if (!added) return tl::unexpected(added.error());
   }
   return jobs;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string resolved(const fs::path& plan, const std::string& given) {
+  std::error_code ignored;
+  const fs::path beside = plan.parent_path() / given;
+  return fs::is_regular_file(beside, ignored) ? beside.string() : given;
+}
+
+}  // namespace
+
+void resolve_scenarios(const fs::path& plan, std::vector<std::string>& scenarios) {
+  for (std::string& each : scenarios) each = resolved(plan, each);
+}
+
+void resolve_settings(const fs::path& plan, std::vector<std::string>& settings) {
+  for (std::string& each : settings) {
+    if (each.starts_with('@')) each = "@" + resolved(plan, each.substr(1));
+  }
 }
 
 }  // namespace aims

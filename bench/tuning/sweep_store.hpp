@@ -25,6 +25,8 @@ struct MergedJob {
 
   /// "done", "invalid", "failed", "crashed", "timed_out" or "missing".
   std::string outcome() const;
+  bool is_missing() const { return file.is_null(); }
+  bool is_done() const;
   /// Why its run is invalid (bench/scoring/validity.hpp).
   std::optional<std::string> invalid() const;
 };

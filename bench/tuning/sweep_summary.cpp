@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "bench/scoring/json_text.hpp"
+#include "bench/scoring/report.hpp"
 #include "bench/tuning/range_key.hpp"
 #include "bench/tuning/response_summary.hpp"
 #include "bench/tuning/sweep_plan.hpp"
-#include "core/files/atomic_file.hpp"
 #include "core/files/yaml_config.hpp"
 
 namespace aims {
@@ -159,7 +159,7 @@ Result<VariedParameters> varied_in(const MergedSweep& sweep) {
 }
 
 std::optional<PlacedJob> placed_job(const MergedJob& job, const VariedParameters& varied) {
-  if (job.outcome() == "missing") return std::nullopt;
+  if (job.is_missing()) return std::nullopt;
   PlacedJob placed;
   placed.estimator.name = value_in(job.file, "estimator", "");
   placed.estimator.label = placed.estimator.name;
@@ -246,7 +246,7 @@ std::string unstarted_text(const MergedSweep& sweep) {
   std::map<std::string, bool> done;
   for (const MergedJob& job : sweep.jobs) {
     bool& any = done[job.listed.scenario + " seed " + job.listed.seed];
-    any = any || job.outcome() != "missing";
+    any = any || !job.is_missing();
   }
   std::vector<std::string> open;
   for (const auto& [sequence, any] : done) {
@@ -272,7 +272,7 @@ Result<void> write_sweep_summary(const MergedSweep& sweep, const Objective& obje
     }
     text += response_markdown(response.table, objective_for(objective, response.table));
   }
-  return write_file_atomically(folder / "sweep.md", text);
+  return write_report({.name = "sweep", .markdown = text}, folder);
 }
 
 }  // namespace aims

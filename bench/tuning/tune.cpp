@@ -13,7 +13,7 @@
 #include "bench/tuning/batch_progress.hpp"
 #include "bench/tuning/effect.hpp"
 #include "bench/tuning/optimizer.hpp"
-#include "bench/tuning/tune_jobs.hpp"
+#include "bench/tuning/tune_plan.hpp"
 
 namespace aims {
 namespace {

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <fstream>
 #include <set>
 #include <utility>
 
@@ -11,7 +12,6 @@
 #include "bench/scenario/score_keys.hpp"
 #include "bench/scenario/seeds.hpp"
 #include "bench/scoring/score_list.hpp"
-#include "bench/tuning/plan_paths.hpp"
 #include "bench/tuning/range_key.hpp"
 #include "bench/tuning/sweep_plan.hpp"
 #include "core/files/atomic_file.hpp"
@@ -245,6 +245,29 @@ Result<TuneTask> tune_task(const TunePlan& plan, const fs::path& folder) {
   }
   if (auto same = check_defaults(task); !same) return tl::unexpected(same.error());
   return task;
+}
+
+namespace {
+
+constexpr const char* kFile = "tune_jobs.csv";
+constexpr const char* kHeader = "id";
+
+}  // namespace
+
+Result<void> write_tune_jobs(const std::filesystem::path& folder,
+                             const std::set<std::string>& ids) {
+  std::string text = std::string(kHeader) + "\n";
+  for (const std::string& id : ids) text += id + "\n";
+  return write_file_atomically(folder / kFile, text);
+}
+
+std::optional<std::set<std::string>> read_tune_jobs(const std::filesystem::path& folder) {
+  std::ifstream file(folder / kFile);
+  std::string line;
+  if (!std::getline(file, line) || line != kHeader) return std::nullopt;
+  std::set<std::string> ids;
+  while (std::getline(file, line)) ids.insert(line);
+  return ids;
 }
 
 }  // namespace aims

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -75,5 +77,12 @@ struct TuneTask {
 /// not right, for scenarios in which the default values differ, and for a sequence that is both
 /// tuned on and held out. `scenario_folder` is where names and tags are looked up.
 Result<TuneTask> tune_task(const TunePlan& plan, const std::filesystem::path& scenario_folder);
+
+/// The ids of the jobs that a tuning asked for, in tune_jobs.csv of its folder: jobs of an earlier
+/// plan may lie beside them. Error when it cannot be written.
+Result<void> write_tune_jobs(const std::filesystem::path& folder, const std::set<std::string>& ids);
+
+/// None where the folder has no such file.
+std::optional<std::set<std::string>> read_tune_jobs(const std::filesystem::path& folder);
 
 }  // namespace aims

@@ -43,4 +43,12 @@ std::vector<std::string> left_out_lines(const TuneResult& result);
 /// A line per sequence on which jobs failed, with the reason of one.
 std::vector<std::string> failed_lines(const TuneResult& result);
 
+/// The chosen point as a configuration file to be laid on top of any scenario (`--set @FILE`), with
+/// where it comes from as comments: the held-out verdict first, sequences, algorithm, code, plan.
+/// Expects one objective and a chosen point.
+std::string overlay_text(const TuneResult& result);
+
+/// Writes `overlay_text` to a file, whole or not at all.
+Result<void> write_overlay(const TuneResult& result, const std::filesystem::path& file);
+
 }  // namespace aims

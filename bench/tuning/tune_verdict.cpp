@@ -8,11 +8,11 @@
 
 #include "bench/metrics/paired_test.hpp"
 #include "bench/tuning/effect.hpp"
+#include "bench/tuning/range_key.hpp"
 #include "bench/tuning/response_summary.hpp"
 #include "bench/tuning/tune_plan.hpp"
-#include "bench/tuning/values_text.hpp"
-#include "core/counted.hpp"
 #include "core/files/atomic_file.hpp"
+#include "core/text.hpp"
 
 namespace aims {
 namespace {

@@ -49,7 +49,7 @@ CsvTable& CsvTable::add(const std::optional<double>& value) {
   return value ? add(*value) : add_empty();
 }
 
-CsvTable& CsvTable::add(std::int64_t value) {
+CsvTable& CsvTable::add_integer(std::int64_t value) {
   add_cell(fmt::format("{}", value));
   return *this;
 }

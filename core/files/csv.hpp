@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -25,8 +26,7 @@ class CsvTable {
   CsvTable& add(const std::string& text) { return add(std::string_view(text)); }
   CsvTable& add(double value);
   CsvTable& add(const std::optional<double>& value);
-  CsvTable& add(std::int64_t value);
-  CsvTable& add(int value) { return add(static_cast<std::int64_t>(value)); }
+  CsvTable& add(std::integral auto value) { return add_integer(static_cast<std::int64_t>(value)); }
   CsvTable& add(bool value);
   CsvTable& add_empty();
 
@@ -40,6 +40,7 @@ class CsvTable {
   std::string take_text() { return std::exchange(text_, {}); }
 
  private:
+  CsvTable& add_integer(std::int64_t value);
   void add_cell(std::string_view cell);
 
   std::size_t columns_;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/files/number_lines.hpp"
+#include "core/files/text_file.hpp"
 #include "core/text.hpp"
 
 namespace aims {
@@ -72,6 +73,12 @@ Result<std::vector<WaypointTime>> parse_waypoint_times(std::string_view text,
     waypoint_times.push_back(std::move(*waypoint_time));
   }
   return waypoint_times;
+}
+
+Result<std::vector<WaypointTime>> read_waypoint_times(const std::filesystem::path& file) {
+  const auto text = read_text_file(file);
+  if (!text) return tl::unexpected(text.error());
+  return parse_waypoint_times(*text, file.string());
 }
 
 }  // namespace aims

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,5 +16,8 @@ namespace aims {
 /// ...".
 Result<std::vector<WaypointTime>> parse_waypoint_times(std::string_view text,
                                                        const std::string& name);
+
+/// The same of a file.
+Result<std::vector<WaypointTime>> read_waypoint_times(const std::filesystem::path& file);
 
 }  // namespace aims

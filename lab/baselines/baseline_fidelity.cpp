@@ -21,9 +21,7 @@ Result<std::vector<WaypointTime>> waypoint_times_of(const BaselineFidelityReques
     if (!origin) return tl::unexpected(origin.error());
     return std::move(origin->waypoint_times);
   }
-  const auto text = read_file(request.waypoint_times);
-  if (!text) return tl::unexpected(text.error());
-  return parse_waypoint_times(*text, request.waypoint_times.string());
+  return read_waypoint_times(request.waypoint_times);
 }
 
 /// The published poses as poses of the IMU, with the stamps of the recording.

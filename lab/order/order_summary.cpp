@@ -83,10 +83,7 @@ CsvTable order_csv(const OrderStudy& study) {
   for (const OrderCondition& condition : study.conditions) header.push_back(condition.key);
   CsvTable table(header);
   for (const OrderUnit& unit : study.units) {
-    table.add(unit.scenario)
-        .add(static_cast<std::int64_t>(unit.seed))
-        .add(unit.advantage)
-        .add(unit.tau);
+    table.add(unit.scenario).add(unit.seed).add(unit.advantage).add(unit.tau);
     for (const OrderCondition& condition : study.conditions) {
       const auto drawn = unit.conditions.find(condition.key);
       table.add(drawn == unit.conditions.end() ? std::nullopt : std::optional(drawn->second));

@@ -28,7 +28,7 @@ CsvTable rows_of(const std::vector<WeakDirection>& runs) {
   for (const Source& source : kSources) header.emplace_back(source.name);
   CsvTable table(header);
   for (const WeakDirection& run : runs) {
-    table.add(run.scenario).add(static_cast<std::int64_t>(run.seed));
+    table.add(run.scenario).add(run.seed);
     for (const Source& source : kSources) table.add(run.*source.member);
     table.end_row();
   }

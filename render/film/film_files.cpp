@@ -186,7 +186,7 @@ Result<std::vector<std::string>> write_all(const FilmedSequence& sequence,
   if (!vectors) return tl::unexpected(vectors.error());
   files.insert(files.end(), vectors->begin(), vectors->end());
   record["files"] = files;
-  written = write_file_atomically(folder / "render.json", json_text(record, 2) + "\n");
+  written = write_json(folder / "render.json", record);
   if (!written) return tl::unexpected(written.error());
   return files;
 }

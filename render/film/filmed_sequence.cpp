@@ -7,11 +7,11 @@
 
 #include "bench/estimate/stream.hpp"
 #include "bench/metrics/association.hpp"
+#include "bench/run/sequence.hpp"
 #include "bench/scoring/start_anchor.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/ply.hpp"
 #include "core/files/tum.hpp"
-#include "core/files/waypoint_times.hpp"
 #include "core/stopwatch.hpp"
 #include "estimator/estimator_spec.hpp"
 #include "render/film/map_growth.hpp"
@@ -166,24 +166,18 @@ bool holds_sequence(const fs::path& folder) {
 }
 
 Result<FilmedSequence> stored_sequence(const fs::path& folder, const std::string& mapped) {
-  const auto scenario = load_scenario(folder / "config.yaml", {});
-  if (!scenario) return tl::unexpected(scenario.error());
+  auto run = read_sequence(folder);
+  if (!run) return tl::unexpected(run.error());
   FilmedSequence sequence;
-  sequence.scenario = scenario->name;
-  sequence.robot = scenario->simulation.robot.model;
-  sequence.seed = static_cast<std::uint64_t>(scenario->seed);
-  sequence.scene = build_scene(scenario->simulation.scene, sequence.seed);
-  auto truth = read_tum(folder / "truth.tum");
-  if (!truth) return tl::unexpected(truth.error());
-  const auto text = read_file(folder / "waypoint_times.csv");
-  if (!text) return tl::unexpected(text.error());
-  auto waypoint_times = parse_waypoint_times(*text, (folder / "waypoint_times.csv").string());
-  if (!waypoint_times) return tl::unexpected(waypoint_times.error());
-  sequence.waypoint_times = std::move(*waypoint_times);
-  std::vector<std::string> names = labels_of(scenario->run);
+  sequence.scenario = run->scenario.name;
+  sequence.robot = run->scenario.simulation.robot.model;
+  sequence.seed = run->seed;
+  sequence.scene = std::move(run->scene);
+  sequence.waypoint_times = std::move(run->waypoint_times);
+  sequence.truth = std::move(run->truth);
+  std::vector<std::string> names = labels_of(run->scenario.run);
   if (auto ordered = order(names, folder, mapped); !ordered) return tl::unexpected(ordered.error());
-  sequence.truth = std::move(*truth);
-  if (auto added = add_estimates(sequence, folder, names, scenario->scoring); !added) {
+  if (auto added = add_estimates(sequence, folder, names, run->scenario.scoring); !added) {
     return tl::unexpected(added.error());
   }
   sequence.truth = thinned(sequence.truth, kDrawnSpacing);

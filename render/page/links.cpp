@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <system_error>
 
 namespace aims {
@@ -32,6 +33,17 @@ Result<void> check_links(const fs::path& folder) {
                                (folder / entry.path().filename()).string()));
   }
   return {};
+}
+
+std::string link_to(const fs::path& relative) {
+  std::string link;
+  for (const char c : relative.generic_string()) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = byte < 128 && (std::isalnum(byte) != 0 ||
+                                      std::string("-._~/").find(c) != std::string::npos);
+    link += plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
+  }
+  return link;
 }
 
 std::string folder_name(const fs::path& folder) {

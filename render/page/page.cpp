@@ -9,11 +9,8 @@
 #include "core/files/atomic_file.hpp"
 #include "core/files/manifest.hpp"
 #include "render/page/page_template.hpp"
+#include "render/page/pages.hpp"
 #include "render/page/run_folder.hpp"
-#include "render/page/run_page.hpp"
-#include "render/page/seeds_page.hpp"
-#include "render/page/suite_page.hpp"
-#include "render/page/tuning_page.hpp"
 
 namespace aims {
 namespace {

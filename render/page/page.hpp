@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/draw_observer.hpp"
+#include "bench/estimate/progress.hpp"
 #include "core/error.hpp"
 #include "render/page/page_data.hpp"
 #include "render/page/tuning_source.hpp"

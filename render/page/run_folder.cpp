@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "bench/estimate/estimate.hpp"
-#include "bench/jobs/stored_results.hpp"
 #include "bench/metrics/association.hpp"
 #include "bench/scoring/json_text.hpp"
+#include "bench/scoring/result_files.hpp"
 #include "core/file_name.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/ply.hpp"
@@ -89,40 +89,38 @@ std::vector<std::string> estimator_names(const RunFolder& run) {
   return names;
 }
 
-Result<void> read_trajectory_into(const fs::path& file, Trajectory& trajectory) {
+/// What `read` yields of the file; nothing where there is none.
+template <class Read, class Value>
+Result<void> read_into(const fs::path& file, const Read& read, Value& value) {
   if (!fs::exists(file)) return {};
-  auto read = read_tum(file, PoseRules::kAsGiven);
-  if (!read) return tl::unexpected(read.error());
-  trajectory = valid_part(*read);
+  auto found = read(file);
+  if (!found) return tl::unexpected(found.error());
+  value = std::move(*found);
   return {};
 }
 
-Result<void> read_table_into(const fs::path& file, std::optional<CsvColumns>& table) {
-  if (!fs::exists(file)) return {};
-  auto read = CsvColumns::read(file);
-  if (!read) return tl::unexpected(read.error());
-  table = std::move(*read);
-  return {};
+Result<Trajectory> read_valid_part(const fs::path& file) {
+  return read_tum(file, PoseRules::kAsGiven).map(valid_part);
 }
 
-Result<void> read_map_into(const fs::path& file, std::vector<Eigen::Vector3f>& map) {
-  if (!fs::exists(file)) return {};
-  auto read = read_ply(file);
-  if (!read) return tl::unexpected(read.error());
-  std::copy_if(read->begin(), read->end(), std::back_inserter(map),
-               [](const Eigen::Vector3f& point) {
-                 return point.allFinite() && point.cwiseAbs().maxCoeff() < kFarthestPoint;
-               });
-  return {};
+Result<CsvColumns> read_table(const fs::path& file) { return CsvColumns::read(file); }
+
+Result<std::vector<Eigen::Vector3f>> read_map(const fs::path& file) {
+  auto points = read_ply(file);
+  if (!points) return points;
+  std::erase_if(*points, [](const Eigen::Vector3f& point) {
+    return !(point.allFinite() && point.cwiseAbs().maxCoeff() < kFarthestPoint);
+  });
+  return points;
 }
 
-Result<EstimatorFiles> read_estimator(const fs::path& folder, const std::string& name) {
+Result<EstimatorFiles> read_files_of(const fs::path& folder, const std::string& name) {
   EstimatorFiles files;
   files.name = name;
   if (!is_file_name(name)) return files;
-  auto done = read_trajectory_into(folder / (name + ".tum"), files.trajectory);
-  if (done) done = read_table_into(folder / (name + ".diagnostics.csv"), files.diagnostics);
-  if (done) done = read_map_into(folder / (name + ".map.ply"), files.map);
+  auto done = read_into(folder / (name + ".tum"), read_valid_part, files.trajectory);
+  if (done) done = read_into(folder / (name + ".diagnostics.csv"), read_table, files.diagnostics);
+  if (done) done = read_into(folder / (name + ".map.ply"), read_map, files.map);
   if (!done) return tl::unexpected(done.error());
   return files;
 }
@@ -187,17 +185,6 @@ Result<void> read_config(RunFolder& run) {
   return {};
 }
 
-Result<void> read_waypoint_times(RunFolder& run) {
-  const fs::path file = run.path / "waypoint_times.csv";
-  if (!fs::exists(file)) return {};
-  const auto text = read_file(file);
-  if (!text) return tl::unexpected(text.error());
-  auto waypoint_times = parse_waypoint_times(*text, file.string());
-  if (!waypoint_times) return tl::unexpected(waypoint_times.error());
-  run.waypoint_times = std::move(*waypoint_times);
-  return {};
-}
-
 }  // namespace
 
 bool is_foreign(const RunFolder& run) {
@@ -219,14 +206,15 @@ Result<RunFolder> read_run_folder(const fs::path& folder) {
   auto done = check_links(folder);
   if (done) done = read_records(run);
   if (done) done = read_config(run);
-  if (done) done = read_trajectory_into(folder / "truth.tum", run.truth);
-  if (done) done = read_waypoint_times(run);
-  if (done) done = read_table_into(folder / "localizability.csv", run.localizability);
-  if (done) done = read_table_into(folder / "legs.csv", run.legs);
-  if (done) done = read_table_into(folder / "scans.csv", run.scans);
+  if (done) done = read_into(folder / "truth.tum", read_valid_part, run.truth);
+  if (done)
+    done = read_into(folder / "waypoint_times.csv", read_waypoint_times, run.waypoint_times);
+  if (done) done = read_into(folder / "localizability.csv", read_table, run.localizability);
+  if (done) done = read_into(folder / "legs.csv", read_table, run.legs);
+  if (done) done = read_into(folder / "scans.csv", read_table, run.scans);
   if (!done) return tl::unexpected(done.error());
   for (const std::string& name : estimator_names(run)) {
-    auto files = read_estimator(folder, name);
+    auto files = read_files_of(folder, name);
     if (!files) return tl::unexpected(files.error());
     run.estimators.push_back(std::move(*files));
   }

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/page/run_page.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,9 +19,9 @@
 #include "core/text.hpp"
 #include "render/page/map_cloud.hpp"
 #include "render/page/page_data.hpp"
+#include "render/page/pages.hpp"
 #include "render/page/run_folder.hpp"
 #include "render/page/run_series.hpp"
-#include "render/page/scan_series.hpp"
 #include "render/page/scene_geometry.hpp"
 #include "render/page/series.hpp"
 #include "render/page/surface_distance.hpp"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/page/scan_series.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "render/page/map_cloud.hpp"
+#include "render/page/run_series.hpp"
 #include "render/page/series.hpp"
 
 namespace aims {

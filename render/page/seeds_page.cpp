@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/page/seeds_page.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <string>
 #include <utility>
 
-#include "bench/jobs/stored_results.hpp"
 #include "bench/run/expectations.hpp"
-#include "bench/scenario/set_description.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "bench/scoring/json_text.hpp"
+#include "bench/scoring/result_files.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "core/files/atomic_file.hpp"
 #include "render/page/links.hpp"
+#include "render/page/pages.hpp"
 #include "render/page/run_folder.hpp"
 #include "render/page/series.hpp"
 #include "render/page/suite_runs.hpp"
@@ -66,17 +65,8 @@ std::string seeds_text(const std::vector<RunRecord>& runs) {
 
 /// The folders seed-N that hold a run, by N; one on which every estimator failed has no truth.
 std::vector<fs::path> folders_of_seeds(const fs::path& folder) {
-  std::vector<fs::path> runs;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    const bool is_seed = entry.path().filename().string().starts_with("seed-");
-    if (is_seed && holds_run(entry.path())) runs.push_back(entry.path());
-  }
-  const auto shorter_first = [](const fs::path& path) {
-    const std::string name = path.filename().string();
-    return std::pair(name.size(), name);
-  };
-  std::ranges::sort(runs, {}, shorter_first);
+  std::vector<fs::path> runs = seed_folders_in(folder);
+  std::erase_if(runs, [](const fs::path& each) { return !holds_run(each); });
   return runs;
 }
 

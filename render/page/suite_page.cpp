@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/page/suite_page.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -22,6 +19,7 @@
 #include "bench/studies/written_runs.hpp"
 #include "render/page/links.hpp"
 #include "render/page/page_data.hpp"
+#include "render/page/pages.hpp"
 #include "render/page/series.hpp"
 #include "render/page/suite_runs.hpp"
 
@@ -105,42 +103,38 @@ std::string title_of(const Json& suite, const fs::path& folder) {
                      suite_estimators(suite).size());
 }
 
+/// The file of a study in the folder, as `read` yields it; null where there is none, or a note
+/// where it cannot be used.
+Json study_part(const fs::path& folder, const char* name, Json& notes,
+                const std::function<Result<Json>(const fs::path& file)>& read) {
+  const fs::path file = folder / name;
+  std::error_code ignored;
+  if (!fs::exists(file, ignored)) return {};
+  auto part = read(file);
+  if (part) return std::move(*part);
+  notes.push_back(fmt::format("{} cannot be used: {}", name, part.error().message));
+  return {};
+}
+
 /// The ROC part: what is asked for, else what the folder has, else null.
 Result<Json> detectors_of(const fs::path& folder, const fs::path& asked, PageData& page,
                           Json& notes) {
+  constexpr const char* kName = "detectors.json";
   std::error_code ignored;
-  fs::path file = asked.empty() ? folder : asked;
-  if (fs::is_directory(file, ignored)) file /= "detectors.json";
-  if (asked.empty() && !fs::exists(file, ignored)) return Json();
-  auto curves = detector_curves(file, page);
-  if (curves || !asked.empty()) return curves;
-  notes.push_back("detectors.json cannot be used: " + curves.error().message);
-  return Json();
-}
-
-/// The series of `aims study consistency`; null in other folders.
-Json consistency_of(const fs::path& folder, PageData& page, Json& notes) {
-  const fs::path file = folder / "consistency.json";
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) return {};
-  auto series = consistency_series(file, page);
-  if (series) return std::move(*series);
-  notes.push_back("consistency.json cannot be used: " + series.error().message);
-  return {};
+  if (!asked.empty()) {
+    return detector_curves(fs::is_directory(asked, ignored) ? asked / kName : asked, page);
+  }
+  return study_part(folder, kName, notes,
+                    [&](const fs::path& file) { return detector_curves(file, page); });
 }
 
 /// The file of `aims study paper` and its pictures; null in other folders.
 Result<Json> paper_of(const fs::path& folder, Json& notes) {
-  const fs::path file = folder / "paper.json";
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) return Json();
-  auto paper = read_json_of(file, kPaperSchema);
-  if (!paper) {
-    notes.push_back("paper.json cannot be used: " + paper.error().message);
-    return Json();
-  }
+  Json paper = study_part(folder, "paper.json", notes,
+                          [](const fs::path& file) { return read_json_of(file, kPaperSchema); });
+  if (paper.is_null()) return paper;
   std::vector<PagePicture> pictures;
-  for (const Json& each : member(*paper, "experiments")) {
+  for (const Json& each : member(paper, "experiments")) {
     const std::string name = text_in(each, "scenario");
     pictures.push_back(
         {name + "-trajectories", name + ": trajectories over the plan, height, error"});
@@ -148,19 +142,8 @@ Result<Json> paper_of(const fs::path& folder, Json& notes) {
   }
   auto shown = pictures_json(folder, pictures, kLargestPicture, notes);
   if (!shown) return shown;
-  (*paper)["pictures"] = std::move(*shown);
+  paper["pictures"] = std::move(*shown);
   return paper;
-}
-
-/// The file of `aims benchmark`; null in other folders.
-Json benchmark_of(const fs::path& folder, Json& notes) {
-  const fs::path file = folder / "benchmark.json";
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) return {};
-  auto benchmark = read_json_of(file, kBenchmarkSchema);
-  if (benchmark) return std::move(*benchmark);
-  notes.push_back("benchmark.json cannot be used: " + benchmark.error().message);
-  return {};
 }
 
 /// What changed from `against` to the suite; null when there is nothing to compare with.
@@ -193,12 +176,16 @@ Result<PageData> suite_page(const fs::path& folder, const PageOptions& options) 
   Json notes = Json::array();
   auto detectors = detectors_of(folder, options.detectors, page, notes);
   if (!detectors) return tl::unexpected(detectors.error());
-  Json consistency = consistency_of(folder, page, notes);
+  Json consistency = study_part(folder, "consistency.json", notes, [&](const fs::path& each) {
+    return consistency_series(each, page);
+  });
   auto comparison = comparison_of(folder, options.against);
   if (!comparison) return tl::unexpected(comparison.error());
   auto paper = paper_of(folder, notes);
   if (!paper) return tl::unexpected(paper.error());
-  Json benchmark = benchmark_of(folder, notes);
+  Json benchmark = study_part(folder, "benchmark.json", notes, [](const fs::path& each) {
+    return read_json_of(each, kBenchmarkSchema);
+  });
   if (!benchmark.is_null() && !text_in(benchmark, "title").empty()) {
     page.title = text_in(benchmark, "title");
   }

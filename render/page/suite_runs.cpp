@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/page/suite_runs.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cctype>
 #include <vector>
 
 #include "bench/scoring/json_text.hpp"
 #include "bench/scoring/score_statistics.hpp"
 #include "bench/scoring/validity.hpp"
-#include "render/page/suite_page.hpp"
+#include "render/page/links.hpp"
+#include "render/page/page.hpp"
 
 namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kRunPage = "page.html";
 
 /// What the page shows of one estimator on one seed.
 Json outcome_of(const RunRecord& run, const std::string& estimator, const Json& headline) {
@@ -35,23 +31,12 @@ Json outcome_of(const RunRecord& run, const std::string& estimator, const Json& 
 /// The link to a run's own page; null when none lies there.
 Json run_link(const fs::path& run_folder, const fs::path& page_folder) {
   std::error_code ignored;
-  if (!fs::exists(run_folder / kRunPage, ignored)) return {};
-  const fs::path target = fs::weakly_canonical(run_folder, ignored) / kRunPage;
+  if (!fs::exists(run_folder / kPageFile, ignored)) return {};
+  const fs::path target = fs::weakly_canonical(run_folder, ignored) / kPageFile;
   return link_to(target.lexically_relative(fs::weakly_canonical(page_folder, ignored)));
 }
 
 }  // namespace
-
-std::string link_to(const fs::path& relative) {
-  std::string link;
-  for (const char c : relative.generic_string()) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool plain = byte < 128 && (std::isalnum(byte) != 0 ||
-                                      std::string("-._~/").find(c) != std::string::npos);
-    link += plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
-  }
-  return link;
-}
 
 Json suite_run_json(const std::string& scenario, std::uint64_t seed, const RunRecord* record,
                     const fs::path& run_folder, const fs::path& page_folder, const Json& headline) {

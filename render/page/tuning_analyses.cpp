@@ -205,7 +205,7 @@ Json analysis_json(const ResponseTable& table, const Objective& objective, PageD
   json["best"] = best_json(table, *best);
   const Effect effect = effect_of(table, objective);
   json["effect"] = text_of(effect);
-  json["standing"] = standing_of(*best, effect);
+  json["standing"] = name_of(standing_of(*best, effect));
   json["unresolved"] = unresolved_text(*best, effect);
   const auto sensitivity = sensitivity_of(table, objective);
   if (table.ranges.size() == 1) {

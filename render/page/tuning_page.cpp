@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/page/tuning_page.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,6 +23,7 @@
 #include "bench/tuning/tune_summary.hpp"
 #include "bench/tuning/tune_verdict.hpp"
 #include "render/page/links.hpp"
+#include "render/page/pages.hpp"
 #include "render/page/series.hpp"
 #include "render/page/tuning_analyses.hpp"
 

@@ -11,7 +11,6 @@
 #include "bench/scenario/seeds.hpp"
 #include "bench/scoring/json_text.hpp"
 #include "bench/tuning/sweep_plan.hpp"
-#include "bench/tuning/tune_jobs.hpp"
 #include "bench/tuning/tune_plan.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/csv_columns.hpp"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/results/estimate_pictures.hpp"
-
 #include <fmt/format.h>
 
 #include <utility>
@@ -8,7 +6,7 @@
 #include "bench/scoring/tables.hpp"
 #include "core/files/tum.hpp"
 #include "render/results/estimator_pictures.hpp"
-#include "render/results/trajectory_pictures.hpp"
+#include "render/results/pictures.hpp"
 
 namespace aims {
 

@@ -1,31 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/results/run_pictures.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
 #include <mutex>
-#include <optional>
 #include <span>
 #include <utility>
 
 #include "bench/run/sequence.hpp"
 #include "bench/scenario/scenario.hpp"
-#include "bench/scoring/estimator_files.hpp"
+#include "bench/scoring/result_files.hpp"
 #include "bench/scoring/score_record.hpp"
 #include "bench/scoring/start_anchor.hpp"
 #include "core/background_tasks.hpp"
-#include "core/files/atomic_file.hpp"
 #include "core/files/manifest.hpp"
-#include "core/files/tum.hpp"
-#include "core/files/waypoint_times.hpp"
 #include "estimator/estimator_spec.hpp"
 #include "render/plots/map_grid.hpp"
 #include "render/plots/trajectory_plot.hpp"
 #include "render/results/estimator_pictures.hpp"
+#include "render/results/pictures.hpp"
 #include "render/scene/robot_pictures.hpp"
-#include "sim/environment/scene_config.hpp"
 #include "sim/robot/robot_config.hpp"
 
 namespace aims {
@@ -73,56 +67,33 @@ Result<void> draw_all(std::span<const Picture> pictures, int threads,
 constexpr Duration kRunSpacing = 100 * kMillisecond;
 
 /// What a run's pictures show.
-struct DrawnRun {
-  Scenario scenario;
-  Scene scene;
-  Trajectory truth;
-  std::vector<WaypointTime> waypoint_times;
+struct DrawnRun : WrittenSequence {
   std::vector<RobotSnapshot> snapshots;
   std::vector<EstimatorOutcome> estimators;
   std::string subtitle;
 };
 
-/// When the estimator diverged, as scores.json says; none if it did not.
-std::optional<Time> diverged_at(const fs::path& folder, const std::string& label) {
-  const auto text = read_file(folder / "scores.json");
-  const auto scores = text ? parse_json(*text, "scores.json") : tl::unexpected(text.error());
-  if (!scores) return std::nullopt;
-  const auto seconds = number_at(member(member(*scores, "estimators"), label), "diverged_at_s");
-  return seconds ? std::optional(from_seconds(*seconds)) : std::nullopt;
-}
-
 /// What is read of an estimator.
 using PartsOf = std::function<EstimatorParts(const std::string& label)>;
 
 Result<DrawnRun> read_run(const fs::path& folder, const PartsOf& parts_of) {
-  auto scenario = load_scenario(folder / "config.yaml", {});
-  if (!scenario) return tl::unexpected(scenario.error());
-  DrawnRun run;
-  run.scenario = std::move(*scenario);
-  const auto seed = static_cast<std::uint64_t>(run.scenario.seed);
-  run.scene = build_scene(run.scenario.simulation.scene, seed);
-  auto truth = read_tum(folder / "truth.tum");
-  if (!truth) return tl::unexpected(truth.error());
-  run.truth = std::move(*truth);
-  const fs::path times = folder / "waypoint_times.csv";
-  const auto text = read_file(times);
-  if (!text) return tl::unexpected(text.error());
-  auto waypoint_times = parse_waypoint_times(*text, times.string());
-  if (!waypoint_times) return tl::unexpected(waypoint_times.error());
-  run.waypoint_times = std::move(*waypoint_times);
+  auto sequence = read_sequence(folder);
+  if (!sequence) return tl::unexpected(sequence.error());
+  DrawnRun run{std::move(*sequence), {}, {}, {}};
   auto snapshots = read_snapshots(folder / "snapshots.csv");
   if (!snapshots) return tl::unexpected(snapshots.error());
   run.snapshots = std::move(*snapshots);
+  const auto record = read_record(folder / "scores.json");
   for (const std::string& label : labels_of(run.scenario.run)) {
     if (!fs::exists(folder / (label + ".tum"))) continue;  // it failed
     auto estimator = read_estimator(folder, label, parts_of(label));
     if (!estimator) return tl::unexpected(estimator.error());
-    estimator->scores.diverged_at = diverged_at(folder, label);
+    const auto diverged_at = record ? find_score(*record, label, "diverged_at_s") : std::nullopt;
+    if (diverged_at) estimator->scores.diverged_at = from_seconds(*diverged_at);
     run.estimators.push_back(std::move(*estimator));
   }
   const double end_s = run.truth.empty() ? 0.0 : to_seconds(run.truth.back().stamp);
-  run.subtitle = fmt::format("seed {}, {:.0f} s simulated", seed, end_s);
+  run.subtitle = fmt::format("seed {}, {:.0f} s simulated", run.seed, end_s);
   return run;
 }
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/results/trajectory_pictures.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include "bench/scoring/start_anchor.hpp"
 #include "render/plots/time_plot.hpp"
 #include "render/plots/trajectory_plot.hpp"
+#include "render/results/pictures.hpp"
 
 namespace aims {
 namespace {

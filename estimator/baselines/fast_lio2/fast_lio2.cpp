@@ -7,7 +7,10 @@
 #include "estimator/lidar/point_choice.hpp"
 
 namespace aims::fast_lio2 {
+namespace {
 
+/// The publication has no index of degeneracy; eigenvalues and localizability are those of the
+/// residuals of the last iteration.
 std::vector<SeriesInfo> scan_series() {
   return {{"points_in", "-", "points after the voxel filter"},
           {"points_used", "-", "points with an accepted plane in the last iteration"},
@@ -19,6 +22,7 @@ std::vector<SeriesInfo> scan_series() {
           {"localizability", "-", "sum of the cosines between normals and the weakest direction"}};
 }
 
+/// `points`: after the voxel filter; `variance`: of a residual [m^2].
 ScanRow scan_row(const Update& update, std::size_t points, double variance, Time stamp) {
   const Eigen::VectorXd& distances = update.residuals.distances;
   const points::TranslationConstraint constraint =
@@ -31,8 +35,6 @@ ScanRow scan_row(const Update& update, std::size_t points, double variance, Time
            static_cast<double>(update.iterations), update.converged ? 1.0 : 0.0, mean,
            constraint.smallest / variance, constraint.condition, constraint.localizability}};
 }
-
-namespace {
 
 constexpr double kGravity = 9.81;  ///< of the scaled specific force [m/s^2]
 

@@ -13,13 +13,6 @@
 
 namespace aims::fast_lio2 {
 
-/// The series that the estimator reports of each scan. The publication has no index of degeneracy;
-/// eigenvalues and localizability are those of the residuals of the last iteration.
-std::vector<SeriesInfo> scan_series();
-
-/// Their values. `points`: after the voxel filter; `variance`: of a residual [m^2].
-ScanRow scan_row(const Update& update, std::size_t points, double variance, Time stamp);
-
 /// FAST-LIO2: an iterated Kalman filter on IMU and LiDAR, which matches the points of each scan
 /// with planes of a map of points (docs/baselines/fast_lio2.md). Its world is the IMU's frame at
 /// the start: roll and pitch are not relative to gravity.

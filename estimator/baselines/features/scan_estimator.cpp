@@ -15,10 +15,10 @@ void ScanEstimator::end_delivery() {
   }
 }
 
-void ScanEstimator::report(const Pose& T_map_lidar, ScanRow row) {
+void ScanEstimator::report(const Pose& T_map_lidar, Time end, std::vector<double> values) {
   const Pose T_odom_body = rig_.T_body_lidar * T_map_lidar * rig_.T_body_lidar.inverse();
-  result_.trajectory.push_back({row.stamp, T_odom_body});
-  result_.diagnostics.scans.push_back(std::move(row));
+  result_.trajectory.push_back({end, T_odom_body});
+  result_.diagnostics.scans.push_back({end, std::nullopt, std::move(values)});
 }
 
 std::vector<Eigen::Vector3f> ScanEstimator::map_points() const {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,15 @@ constexpr std::array<ReportedSeries<Report>, 3> mapping_series() {
        [](const Report& s) { return s.mapping ? double(s.mapping->directions.removed) : kNone; }},
   }};
 }
+
+/// What a system that segments its scans reports of each.
+struct SegmentedReport {
+  int points_in = 0;                    ///< returns in range
+  int ground = 0;                       ///< returns of the ground
+  int segmented = 0;                    ///< returns of kept segments
+  std::optional<SolverResult> mapping;  ///< none: the scan was not registered to the map
+  int loops = 0;                        ///< loops closed so far
+};
 
 /// The series of a segmented scan: `Report::points_in`, `ground` and `segmented`.
 template <class Report>
@@ -65,8 +75,8 @@ class ScanEstimator : public QueuedEstimator {
   /// Points of the map, map axes [m].
   virtual std::vector<Eigen::Vector3f> points_in_lidar_axes() const = 0;
 
-  /// Adds the pose of the LiDAR at the end of a scan.
-  void report(const Pose& T_map_lidar, ScanRow row);
+  /// Adds the pose of the LiDAR at the end of a scan, with the values of its series.
+  void report(const Pose& T_map_lidar, Time end, std::vector<double> values);
 
   /// The samples of the IMU's memory.
   const ImuHistory& imu() const { return queue_.imu(); }

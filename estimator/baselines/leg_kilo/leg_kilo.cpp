@@ -31,8 +31,8 @@ double mean_distance(const ScanReport& report) {
   return count > 0.0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
 }
 
-}  // namespace
-
+/// The publication has no index of degeneracy; eigenvalues and localizability are those of the
+/// planes of the scan.
 std::vector<SeriesInfo> scan_series() {
   return {{"points_in", "-", "points after the voxel filter"},
           {"points_used", "-", "points that lay on a plane"},
@@ -59,8 +59,6 @@ ScanRow scan_row(const ScanReport& report, const Belief& belief, double variance
            static_cast<double>(report.updates), feet, mean_distance(report), information.smallest,
            information.condition, directions.localizability}};
 }
-
-namespace {
 
 constexpr double kGravity = 9.81;  ///< [m/s^2]
 

@@ -23,14 +23,6 @@ struct ScanReport {
   std::vector<PointOnPlane> matches;  ///< at the states before their updates
 };
 
-/// The series that the estimator reports of each scan. The publication has no index of degeneracy;
-/// eigenvalues and localizability are those of the planes of the scan.
-std::vector<SeriesInfo> scan_series();
-
-/// Their values.
-ScanRow scan_row(const ScanReport& report, const Belief& belief, double variance_factor,
-                 Time stamp);
-
 /// Leg-KILO: one Kalman filter on IMU, standing feet and points on the planes of a map of voxels
 /// (docs/baselines/leg_kilo.md). It takes the points of a scan in small groups, in order of their
 /// firing, so nothing is deskewed. Its world is the IMU's frame at the start: roll and pitch are
@@ -66,8 +58,8 @@ class LegKilo : public QueuedEstimator {
   double force_scale_ = 1.0;  ///< makes the mean specific force of the start as long as gravity
   Time predicted_ = 0;        ///< time of the state
   Time updated_ = 0;          ///< time of the last update, from which the covariance is predicted
-  std::optional<Time> last_sample_;  ///< newest IMU sample taken
-  std::deque<LegOdometrySample> legs_;                   ///< in order of stamp
+  std::optional<Time> last_sample_;     ///< newest IMU sample taken
+  std::deque<LegOdometrySample> legs_;  ///< in order of stamp
 };
 
 }  // namespace aims::leg_kilo

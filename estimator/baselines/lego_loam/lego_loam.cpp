@@ -53,6 +53,11 @@ OdometryResult TwoStepOdometry::update(features::RingFeatures& scan) {
 
 namespace {
 
+/// What LeGO-LOAM reports of a scan.
+struct ScanReport : features::SegmentedReport {
+  OdometryResult odometry;
+};
+
 using Series = ReportedSeries<ScanReport>;
 
 int iterations(const ScanReport& scan) {
@@ -86,14 +91,8 @@ constexpr std::array kSeries =
 
 }  // namespace
 
-std::vector<SeriesInfo> scan_series() { return series_of(kSeries); }
-
-ScanRow row_of(const ScanReport& scan, Time stamp) {
-  return {stamp, std::nullopt, values_of(kSeries, scan)};
-}
-
 LegoLoam::LegoLoam(const Config& config, const SensorRig& rig)
-    : ScanEstimator(config.queue, rig, scan_series()),
+    : ScanEstimator(config.queue, rig, series_of(kSeries)),
       config_(config),
       odometry_(config.odometry),
       mapping_(config.mapping) {}
@@ -110,7 +109,7 @@ void LegoLoam::process(const LidarScan& scan) {
   if (started_) diagnostics.mapping = mapping_.update(scan.end, odometry_.pose(), features);
   started_ = true;
   diagnostics.loops = mapping_.loops();
-  report(mapping_.to_map(odometry_.pose()), row_of(diagnostics, scan.end));
+  report(mapping_.to_map(odometry_.pose()), scan.end, values_of(kSeries, diagnostics));
 }
 
 }  // namespace aims::lego_loam

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "estimator/baselines/features/scan_estimator.hpp"
@@ -39,22 +38,6 @@ class TwoStepOdometry {
   Pose motion_;  ///< from the end of the last scan to that of the present one
   Pose T_odom_lidar_;
 };
-
-/// What LeGO-LOAM reports of a scan.
-struct ScanReport {
-  int points_in = 0;  ///< returns in range
-  int ground = 0;     ///< returns of the ground
-  int segmented = 0;  ///< returns of kept segments
-  OdometryResult odometry;
-  std::optional<features::SolverResult> mapping;  ///< none: the scan was not registered to the map
-  int loops = 0;                                  ///< loops closed so far
-};
-
-/// The series of its diagnostics.
-std::vector<SeriesInfo> scan_series();
-
-/// Its row, in the order of `scan_series`.
-ScanRow row_of(const ScanReport& scan, Time stamp);
 
 /// LeGO-LOAM without IMU: ground and segments of a range image, odometry in two steps, registration
 /// to keyframes (docs/baselines/lego_loam.md).

@@ -13,6 +13,11 @@ namespace aims::lins {
 
 namespace {
 
+/// What LINS reports of a scan.
+struct ScanReport : features::SegmentedReport {
+  OdometryResult odometry;
+};
+
 using Series = ReportedSeries<ScanReport>;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -66,23 +71,13 @@ constexpr std::array kSeries =
     joined(features::segmentation_series<ScanReport>(), kOwnSeries,
            features::mapping_series<ScanReport>(), features::loop_series<ScanReport>());
 
-}  // namespace
-
-std::vector<SeriesInfo> scan_series() { return series_of(kSeries); }
-
-ScanRow row_of(const ScanReport& scan, Time stamp) {
-  return {stamp, std::nullopt, values_of(kSeries, scan)};
-}
-
-namespace {
-
 /// A gap between scans that is longer is bridged by the sample after it.
 constexpr Duration kImuMemory = 2 * kSecond;
 
 }  // namespace
 
 Lins::Lins(const Config& config, const SensorRig& rig)
-    : ScanEstimator(config.queue, rig, scan_series(), kImuMemory),
+    : ScanEstimator(config.queue, rig, series_of(kSeries), kImuMemory),
       config_(config),
       R_lidar_body_(rig.T_body_lidar.R().transpose()),
       odometry_(config),
@@ -129,7 +124,7 @@ void Lins::process(const LidarScan& scan) {
     diagnostics.mapping = mapping_.update(scan.stamp, odometry_.pose(), features);
   }
   diagnostics.loops = mapping_.loops();
-  report(T_map_lidar, row_of(diagnostics, scan.end));
+  report(T_map_lidar, scan.end, values_of(kSeries, diagnostics));
 }
 
 }  // namespace aims::lins

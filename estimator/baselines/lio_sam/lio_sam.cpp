@@ -104,16 +104,6 @@ constexpr std::array kOwnSeries = {
 
 constexpr std::array kSeries = joined(kOwnSeries, features::loop_series<ScanReport>());
 
-}  // namespace
-
-std::vector<SeriesInfo> scan_series() { return series_of(kSeries); }
-
-ScanRow row_of(const ScanReport& scan, Time stamp) {
-  return {stamp, std::nullopt, values_of(kSeries, scan)};
-}
-
-namespace {
-
 /// Samples and poses kept while no scan arrives.
 constexpr std::size_t kMaxKept = 20000;
 
@@ -136,7 +126,7 @@ Time last_firing(const LidarScan& scan) {
 }  // namespace
 
 LioSam::LioSam(const Config& config, const SensorRig& rig)
-    : QueuedEstimator(config.queue, rig, scan_series()),
+    : QueuedEstimator(config.queue, rig, series_of(kSeries)),
       config_(config),
       mapping_(config.mapping),
       imu_odometry_(config.imu, rig.T_body_lidar.inverse().translation) {}
@@ -264,7 +254,7 @@ void LioSam::report(const LidarScan& scan, const Pose& T_map_lidar, const ScanRe
   complete.speed = imu_odometry_.state().velocity.norm();
   complete.accelerometer_bias = imu_odometry_.bias().accelerometer.norm();
   complete.gyro_bias = imu_odometry_.bias().gyro.norm();
-  result_.diagnostics.scans.push_back(row_of(complete, scan.end));
+  result_.diagnostics.scans.push_back({scan.end, std::nullopt, values_of(kSeries, complete)});
 }
 
 void LioSam::set_counts() {

@@ -55,12 +55,6 @@ struct ScanReport {
   double gyro_bias = 0.0;           ///< likewise [rad/s]
 };
 
-/// The series of its diagnostics.
-std::vector<SeriesInfo> scan_series();
-
-/// Its row, in the order of `scan_series`.
-ScanRow row_of(const ScanReport& scan, Time stamp);
-
 /// LIO-SAM: scans registered to keyframes, guessed by an odometry of IMU and LiDAR poses in a
 /// factor graph; keyframes in another graph, with loops (docs/baselines/lio_sam.md). Its odometry
 /// frame is level, at the body's first position and heading.

@@ -80,6 +80,15 @@ std::vector<Eigen::Vector3f> ScanToMap::points() const {
 
 namespace {
 
+/// What LOAM reports of a scan.
+struct ScanReport {
+  int points_in = 0;                              ///< finite returns in range
+  int edges = 0;                                  ///< sharp features
+  int planes = 0;                                 ///< flat features
+  features::SolverResult odometry;                ///< scan to scan
+  std::optional<features::SolverResult> mapping;  ///< none: the scan was not registered to the map
+};
+
 using Series = ReportedSeries<ScanReport>;
 
 constexpr std::array kOwnSeries = {
@@ -104,14 +113,8 @@ constexpr std::array kSeries = joined(kOwnSeries, features::mapping_series<ScanR
 
 }  // namespace
 
-std::vector<SeriesInfo> scan_series() { return series_of(kSeries); }
-
-ScanRow row_of(const ScanReport& scan, Time stamp) {
-  return {stamp, std::nullopt, values_of(kSeries, scan)};
-}
-
 Loam::Loam(const Config& config, const SensorRig& rig)
-    : ScanEstimator(config.queue, rig, scan_series()),
+    : ScanEstimator(config.queue, rig, series_of(kSeries)),
       config_(config),
       odometry_(config.odometry),
       mapping_(config.mapping) {}
@@ -126,7 +129,7 @@ void Loam::process(const LidarScan& scan) {
   if (scans_++ % config_.mapping.interval == 0) {
     diagnostics.mapping = mapping_.update(odometry_.pose(), features);
   }
-  report(mapping_.to_map(odometry_.pose()), row_of(diagnostics, scan.end));
+  report(mapping_.to_map(odometry_.pose()), scan.end, values_of(kSeries, diagnostics));
 }
 
 }  // namespace aims::loam

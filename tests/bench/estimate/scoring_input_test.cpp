@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/estimate/scoring_input.hpp"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -10,7 +8,8 @@
 #include <fstream>
 #include <numbers>
 
-#include "bench/scenario/scoring_config.hpp"
+#include "bench/estimate/scoring_input.hpp"
+#include "bench/scenario/scenario.hpp"
 #include "bench/scoring/trajectory_summary.hpp"
 #include "core/files/tum.hpp"
 #include "recordings/bag/bag_writer.hpp"

@@ -3,7 +3,7 @@
 
 #include "bench/jobs/job_runner.hpp"
 #include "bench/jobs/stored_results.hpp"
-#include "bench/scoring/estimator_files.hpp"
+#include "bench/scoring/result_files.hpp"
 #include "bench/scoring/score_table.hpp"
 #include "core/files/tum.hpp"
 #include "tests/bench/short_walk.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/scoring/failure_reasons.hpp"
-
 #include <gtest/gtest.h>
+
+#include "bench/scoring/run_failure.hpp"
 
 namespace aims {
 namespace {
@@ -29,8 +29,9 @@ TEST(FailureReasons, RunsThatFailedByAnErrorAreOfTheRunsThatThereAre) {
   std::vector<RunRecord> runs = {run_of(1, "gap", 11.0), run_of(2, "gap", 13.5)};
   runs[1].scores["estimators"].erase("mine");
   runs[1].scores["failures"] = {{{"estimator", "mine"}, {"message", "boom"}}};
-  EXPECT_EQ(failure_lines(runs),
-            std::vector<std::string>{"mine on 1 of 2 seeds: gap: no poses for too long, at 10.0 s"});
+  EXPECT_EQ(
+      failure_lines(runs),
+      std::vector<std::string>{"mine on 1 of 2 seeds: gap: no poses for too long, at 10.0 s"});
 }
 
 TEST(FailureReasons, ASingleRunNamesOnlyWhatItsTableLacks) {

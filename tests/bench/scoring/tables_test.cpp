@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/scoring/tables.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "bench/scoring/estimator_files.hpp"
+#include "bench/scoring/result_files.hpp"
+#include "bench/scoring/tables.hpp"
 #include "core/files/atomic_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/studies/detectors.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "bench/studies/detector_summary.hpp"
+#include "bench/studies/detectors.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/random.hpp"
 #include "tests/bench/studies/short_walk.hpp"

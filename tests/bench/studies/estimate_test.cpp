@@ -7,8 +7,8 @@
 #include <algorithm>
 
 #include "bench/estimate/estimate_summary.hpp"
-#include "bench/jobs/stored_results.hpp"
 #include "bench/run/record.hpp"
+#include "bench/scoring/result_files.hpp"
 #include "bench/scoring/trajectory_summary.hpp"
 #include "bench/scoring/validity.hpp"
 #include "core/files/atomic_file.hpp"

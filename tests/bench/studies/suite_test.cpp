@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/studies/suite.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,8 +9,8 @@
 #include "bench/jobs/stored_results.hpp"
 #include "bench/studies/families.hpp"
 #include "bench/studies/success_pairs.hpp"
+#include "bench/studies/suite.hpp"
 #include "bench/studies/suite_summary.hpp"
-#include "bench/studies/suite_tables.hpp"
 #include "core/files/atomic_file.hpp"
 #include "tests/bench/studies/short_walk.hpp"
 #include "tests/support/temporary_folder.hpp"

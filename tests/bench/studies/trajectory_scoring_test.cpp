@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/scoring/trajectory_scoring.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,8 +7,9 @@
 #include <limits>
 
 #include "bench/jobs/stored_results.hpp"
+#include "bench/scoring/trajectory_scoring.hpp"
 #include "bench/scoring/trajectory_summary.hpp"
-#include "render/results/trajectory_pictures.hpp"
+#include "render/results/pictures.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {

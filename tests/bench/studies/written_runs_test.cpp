@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/studies/written_runs.hpp"
-
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <map>
 
+#include "bench/studies/written_runs.hpp"
 #include "core/files/tum.hpp"
-#include "render/results/run_pictures.hpp"
+#include "render/results/pictures.hpp"
 #include "tests/bench/studies/short_walk.hpp"
 
 namespace aims {

@@ -182,7 +182,7 @@ TEST(BestPoint, AreTheDefaultsWhereNoPointIsBetter) {
       << text;
   EXPECT_EQ(text.find("Reduction"), std::string::npos) << text;
   EXPECT_NE(text.find("Keep the defaults: no point is better"), std::string::npos) << text;
-  EXPECT_EQ(standing_of(*best, effect_of(table, absolute())), "least: keep the defaults");
+  EXPECT_EQ(standing_of(*best, effect_of(table, absolute())), Standing::kKeepDefaults);
 }
 
 TEST(BestPoint, OfAThousandthLessIsNotAReductionByZero) {
@@ -264,12 +264,12 @@ TEST(Effect, OfFewArrangementsIsTestedExactly) {
                                });
   const Effect effect = effect_of(halved, absolute());
   EXPECT_NEAR(*effect.p, 1.0 / 32.0, 1e-12);
-  EXPECT_EQ(standing_of(*best_point(halved, absolute()), effect), "best");
+  EXPECT_EQ(standing_of(*best_point(halved, absolute()), effect), Standing::kBest);
   const auto hardly = table_of(ranges, {0.0}, {{0.0}, {1.0}}, 6,
                                [](const std::vector<double>& point, const ResponseCase& on) {
                                  return (point[0] == 1.0 ? 0.998 : 1.0) * double(1 + on.seed);
                                });
-  EXPECT_EQ(standing_of(*best_point(hardly, absolute()), effect_of(hardly, absolute())),
+  EXPECT_EQ(name_of(standing_of(*best_point(hardly, absolute()), effect_of(hardly, absolute()))),
             "least, too little to matter");
   EXPECT_NE(text_of(effect).find("all 32 arrangements"), std::string::npos) << text_of(effect);
 }
@@ -284,7 +284,7 @@ TEST(BestPoint, SaysWhyItIsNotResolvedWherePointsDiffer) {
   const Effect effect = effect_of(table, absolute());
   const auto best = best_point(table, absolute());
   ASSERT_TRUE(best && effect.tells_best());
-  EXPECT_EQ(standing_of(*best, effect), "least, not resolved");
+  EXPECT_EQ(standing_of(*best, effect), Standing::kUnresolved);
   EXPECT_NE(unresolved_text(*best, effect).find("points differ, but the gain over the defaults, "),
             std::string::npos)
       << unresolved_text(*best, effect);
@@ -293,13 +293,12 @@ TEST(BestPoint, SaysWhyItIsNotResolvedWherePointsDiffer) {
 TEST(Effect, OfASinglePointOrASmallOneIsSaidToBeThat) {
   const auto ranges = ranges_of({"a=0:1:12"});
   const auto of = [&](double base, double effect, double noise) {
-    return table_of(ranges, {0.5}, design(DesignKind::kGrid, ranges, 0, 1), 6,
-                    [=](const std::vector<double>& point, const ResponseCase& on) {
-                      RandomStream random =
-                          rng(on.seed, fmt::format("{} {}", point[0], on.scenario));
-                      return base *
-                             std::exp((point[0] == 1.0 ? effect : 0.0) + noise * random.normal());
-                    });
+    return table_of(
+        ranges, {0.5}, design(DesignKind::kGrid, ranges, 0, 1), 6,
+        [=](const std::vector<double>& point, const ResponseCase& on) {
+          RandomStream random = rng(on.seed, fmt::format("{} {}", point[0], on.scenario));
+          return base * std::exp((point[0] == 1.0 ? effect : 0.0) + noise * random.normal());
+        });
   };
   const Effect single = effect_of(of(1.0, 0.5, 0.01), absolute());
   ASSERT_TRUE(single.is_resolved());

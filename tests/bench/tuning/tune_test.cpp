@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/tuning/tune.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,10 +13,9 @@
 #include "bench/tuning/effect.hpp"
 #include "bench/tuning/held_out.hpp"
 #include "bench/tuning/range_key.hpp"
-#include "bench/tuning/tune_overlay.hpp"
+#include "bench/tuning/tune.hpp"
 #include "bench/tuning/tune_summary.hpp"
 #include "bench/tuning/tune_verdict.hpp"
-#include "bench/tuning/values_text.hpp"
 #include "core/files/yaml_config.hpp"
 #include "core/random.hpp"
 #include "estimator/degeneracy/degeneracy.hpp"

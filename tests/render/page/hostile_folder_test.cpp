@@ -7,8 +7,8 @@
 
 #include "render/page/page.hpp"
 #include "render/page/page_template.hpp"
+#include "render/page/pages.hpp"
 #include "render/page/run_folder.hpp"
-#include "render/page/run_page.hpp"
 #include "tests/render/page/decoded_page.hpp"
 #include "tests/render/page/written_run.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/page/run_page.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 #include "render/page/map_cloud.hpp"
 #include "render/page/page.hpp"
 #include "render/page/page_template.hpp"
+#include "render/page/pages.hpp"
 #include "render/page/series.hpp"
 #include "tests/render/page/decoded_page.hpp"
 #include "tests/render/page/written_run.hpp"

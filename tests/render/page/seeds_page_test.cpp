@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/page/seeds_page.hpp"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -9,7 +7,7 @@
 
 #include "core/series_style.hpp"
 #include "render/page/page.hpp"
-#include "render/page/run_page.hpp"
+#include "render/page/pages.hpp"
 #include "tests/render/page/written_run.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/page/suite_page.hpp"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -15,6 +13,8 @@
 #include "bench/studies/comparison.hpp"
 #include "bench/studies/suite_summary.hpp"
 #include "core/files/csv.hpp"
+#include "render/page/links.hpp"
+#include "render/page/pages.hpp"
 #include "tests/render/page/decoded_page.hpp"
 #include "tests/render/page/written_run.hpp"
 #include "tests/support/temporary_folder.hpp"

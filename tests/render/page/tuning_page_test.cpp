@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "render/page/tuning_page.hpp"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,8 +12,9 @@
 
 #include "bench/tuning/analysis.hpp"
 #include "bench/tuning/sweep_summary.hpp"
-#include "bench/tuning/tune_jobs.hpp"
+#include "bench/tuning/tune_plan.hpp"
 #include "estimator/degeneracy/degeneracy.hpp"
+#include "render/page/pages.hpp"
 #include "tests/render/page/decoded_page.hpp"
 #include "tests/render/page/written_run.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/run/draw_observer.hpp"
+#include "bench/estimate/estimate.hpp"
+#include "bench/estimate/progress.hpp"
+#include "bench/scoring/trajectory_scoring.hpp"
 #include "core/error.hpp"
 
 namespace aims {
@@ -24,5 +26,15 @@ Result<void> draw_systems(const std::filesystem::path& folder, const std::vector
 
 /// The pictures in `folder` and below, by name.
 std::vector<std::filesystem::path> pictures_in(const std::filesystem::path& folder);
+
+/// Draws the maps and the degeneracy index; with a truth also the trajectories.
+Result<void> draw_estimate(const EstimateResult& result, const std::filesystem::path& folder,
+                           const DrawObserver& observer = {});
+
+/// Draws trajectories.png (plan, height and error along the way) and errors.png (position, height
+/// and heading error over time) into `folder`.
+Result<void> draw_trajectory_pictures(const TrajectoryScores& scores,
+                                      const std::filesystem::path& folder,
+                                      const DrawObserver& observer = {});
 
 }  // namespace aims

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/scoring/columns.hpp"
-
 #include <gtest/gtest.h>
+
+#include "bench/scoring/report.hpp"
 
 namespace aims {
 namespace {

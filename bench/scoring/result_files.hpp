@@ -1,16 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bench/scoring/outcome.hpp"
+#include "bench/scoring/score_record.hpp"
 #include "core/error.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/csv.hpp"
 
 namespace aims {
+
+/// Writes scores.json and scores.csv.
+Result<void> write_record(const RunRecord& record, const std::filesystem::path& folder);
+
+/// Reads a scores.json; error when it is not one, e.g. cut short.
+Result<RunRecord> read_record(const std::filesystem::path& file);
+
+/// Name of the folder of one run among those of several seeds: "seed-3".
+std::string seed_folder_name(std::uint64_t seed);
+
+/// The folders of that kind in `parent`, by seed.
+std::vector<std::filesystem::path> seed_folders_in(const std::filesystem::path& parent);
 
 /// Ending of the file of a re-optimized trajectory.
 inline constexpr const char* kOptimizedEnding = ".optimized.tum";

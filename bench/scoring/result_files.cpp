@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/scoring/estimator_files.hpp"
+#include "bench/scoring/result_files.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <system_error>
 #include <utility>
 
 #include "bench/scoring/health_summary.hpp"
+#include "bench/scoring/json_text.hpp"
 #include "bench/scoring/tables.hpp"
+#include "bench/scoring/validity.hpp"
 #include "core/files/csv_columns.hpp"
 #include "core/files/ply.hpp"
 #include "core/files/tum.hpp"
@@ -15,6 +19,42 @@
 namespace aims {
 
 namespace fs = std::filesystem;
+
+Result<void> write_record(const RunRecord& record, const fs::path& folder) {
+  auto written = write_csv(folder / "scores.csv", scores_csv({&record, 1}));
+  return written ? write_json(folder / "scores.json", record.scores) : written;
+}
+
+Result<RunRecord> read_record(const fs::path& file) {
+  const auto text = read_file(file);
+  if (!text) return tl::unexpected(text.error());
+  auto parsed = parse_json(*text, file.string());
+  if (!parsed) return tl::unexpected(parsed.error());
+  Json& json = *parsed;
+  const bool known = json.is_object() && value_in(json, "schema", "") == kScoresSchema &&
+                     json.contains("seed") && json["seed"].is_number_unsigned() &&
+                     json.contains("estimators") && json["estimators"].is_object();
+  if (!known) return failure(fmt::format("{}: holds no {}", file.string(), kScoresSchema));
+  mark_validity(json);  // of results from before it was written
+  return RunRecord{json["seed"].get<std::uint64_t>(), std::move(json)};
+}
+
+std::string seed_folder_name(std::uint64_t seed) { return fmt::format("seed-{}", seed); }
+
+std::vector<fs::path> seed_folders_in(const fs::path& parent) {
+  std::vector<fs::path> folders;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(parent, ignored)) {
+    const bool is_seed = entry.path().filename().string().starts_with("seed-");
+    if (is_seed && entry.is_directory(ignored)) folders.push_back(entry.path());
+  }
+  const auto shorter_first = [](const fs::path& path) {
+    const std::string name = path.filename().string();
+    return std::pair(name.size(), name);
+  };
+  std::ranges::sort(folders, {}, shorter_first);
+  return folders;
+}
 
 RowWriter::RowWriter(AtomicFile poses, AtomicFile scans, AtomicFile health)
     : poses_(std::move(poses)),
