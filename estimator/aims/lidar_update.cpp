@@ -171,7 +171,7 @@ Belief LidarUpdate::fused_with(const Belief& prior, const NominalState& at,
                                const Linearization& scan) {
   if (!rule_) return fuse(prior, at, scan.measurement, scan.mask);
   const auto matches = matcher_.correspondences(scan_pose(at, calibration_));
-  RuledUpdate update = rule_->fuse(prior, at, scan.measurement, matches);
+  RuledUpdate update = rule_->fuse(prior, at, scan, matches);
   verdict_ = update.verdict;
   return update.belief;
 }

@@ -47,24 +47,26 @@ LinearScan::LinearScan(const Belief& prior, const NominalState& linearization,
       A(scan.matrix),
       innovation(scan.vector - scan.matrix * (scan.jacobian * offset)) {}
 
-Belief LinearScan::corrected(const ErrorVector& correction, const Gain& gain) const {
-  const ErrorVector delta = correction - offset;
-  const Gain KA = gain * A;
+Belief LinearScan::corrected(const ErrorVector& correction, const Gain& gain,
+                             const GainMask& mask) const {
+  const ErrorVector delta = mask * correction - offset;
+  const Gain masked = mask * gain;
+  const Gain KA = masked * A;
   const ErrorMatrix half =
-      KA * PH.transpose() - 0.5 * (KA * (S * A + Matrix6::Identity()) * gain.transpose());
+      KA * PH.transpose() - 0.5 * (KA * (S * A + Matrix6::Identity()) * masked.transpose());
   return {boxplus(at, delta), reset_covariance(P - half - half.transpose(), delta)};
 }
 
 Belief constrained_step(const Belief& prior, const NominalState& linearization,
-                        const PoseMeasurement& scan, const PoseConstraints& constraints) {
-  const LinearScan linear(prior, linearization, scan);
+                        const Linearization& scan, const PoseConstraints& constraints) {
+  const LinearScan linear(prior, linearization, scan.measurement);
   const Matrix6 information = linear.A + constraints.damping;
   const Matrix6 inverse = (Matrix6::Identity() + information * linear.S).inverse();
   LinearScan::Gain gain = linear.PH * inverse;
   ErrorVector correction = -gain * linear.innovation;
   const ErrorMatrix posterior = linear.P - gain * information * linear.PH.transpose();
   project(constraints.equal, posterior, correction, gain);
-  return linear.corrected(correction, gain);
+  return linear.corrected(correction, gain, scan.mask);
 }
 
 }  // namespace aims

@@ -30,8 +30,8 @@ struct LinearScan {
   LinearScan(const Belief& prior, const NominalState& linearization, const PoseMeasurement& scan);
 
   /// The belief after moving the prior by `correction`, of which the scan's innovation has the gain
-  /// -`gain`; the covariance is Joseph's for this gain.
-  Belief corrected(const ErrorVector& correction, const Gain& gain) const;
+  /// -`gain`, both only in the states that `mask` lets a scan correct; the covariance is Joseph's.
+  Belief corrected(const ErrorVector& correction, const Gain& gain, const GainMask& mask) const;
 
   NominalState at;     ///< linearization
   ErrorVector offset;  ///< of it from the prior
@@ -48,6 +48,6 @@ struct LinearScan {
 /// constraint without information leaves the prior's variance along it. (X-ICP, Tuna et al. 2023,
 /// has no prior but the start of the iteration; docs/baselines/constrained.md.)
 Belief constrained_step(const Belief& prior, const NominalState& linearization,
-                        const PoseMeasurement& scan, const PoseConstraints& constraints);
+                        const Linearization& scan, const PoseConstraints& constraints);
 
 }  // namespace aims

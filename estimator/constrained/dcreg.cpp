@@ -102,10 +102,10 @@ PcgSolution solve_by_pcg(const Matrix6& matrix, const Vector6& vector,
 }
 
 RuledUpdate DcReg::fuse(const Belief& prior, const NominalState& linearization,
-                        const PoseMeasurement& scan,
+                        const Linearization& scan,
                         std::span<const Correspondence> /*correspondences*/) const {
-  const auto directions = schur_directions(scan.matrix, config_);
-  const LinearScan linear(prior, linearization, scan);
+  const auto directions = schur_directions(scan.measurement.matrix, config_);
+  const LinearScan linear(prior, linearization, scan.measurement);
   Matrix6 information = linear.A;
   if (config_.regularize) information += clamping_of(directions);
   // About the pose alone, (S^-1 + A) y = -innovation; the other states follow by their covariance.
@@ -121,7 +121,7 @@ RuledUpdate DcReg::fuse(const Belief& prior, const NominalState& linearization,
   for (std::size_t i = 0; i < directions.size(); ++i) {
     if (directions[i].degenerate) (i < 3 ? verdict.rotation : verdict.translation) = true;
   }
-  return {linear.corrected(correction, linear.PH * inverse), verdict};
+  return {linear.corrected(correction, linear.PH * inverse, scan.mask), verdict};
 }
 
 }  // namespace aims

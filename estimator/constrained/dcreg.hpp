@@ -59,7 +59,7 @@ class DcReg final : public ScanRule {
   explicit DcReg(const DcRegConfig& config) : config_(config) {}
 
   RuledUpdate fuse(const Belief& prior, const NominalState& linearization,
-                   const PoseMeasurement& scan,
+                   const Linearization& scan,
                    std::span<const Correspondence> correspondences) const override;
 
  private:

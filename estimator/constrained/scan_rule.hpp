@@ -28,9 +28,10 @@ class ScanRule {
   virtual ~ScanRule() = default;
 
   /// One step of the iterated update: `prior` after fusing `scan`, which is linearized at
-  /// `linearization`, where its matches are `correspondences`.
+  /// `linearization`, where its matches are `correspondences`. Of the states the scan corrects
+  /// those of its mask, as in the plain update.
   virtual RuledUpdate fuse(const Belief& prior, const NominalState& linearization,
-                           const PoseMeasurement& scan,
+                           const Linearization& scan,
                            std::span<const Correspondence> correspondences) const = 0;
 };
 

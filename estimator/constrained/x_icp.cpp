@@ -152,15 +152,16 @@ PoseConstraints constraints_of(std::span<const LocalizedDirection> directions,
 }
 
 RuledUpdate XIcp::fuse(const Belief& prior, const NominalState& linearization,
-                       const PoseMeasurement& scan,
+                       const Linearization& scan,
                        std::span<const Correspondence> correspondences) const {
   const auto directions = localizability(correspondences, config_);
   const ErrorVector offset = boxminus(linearization, prior.state);
   PoseConstraints constraints = constraints_of(directions, pose_segment(offset));
   if (config_.soft_weight > 0.0) {
     std::erase_if(constraints.equal, [](const PoseConstraint& each) { return !each.measured; });
-    const double unit = block(scan.matrix, ErrorState::kPosition, ErrorState::kPosition).trace() /
-                        std::max<double>(1.0, static_cast<double>(correspondences.size()));
+    const double unit =
+        block(scan.measurement.matrix, ErrorState::kPosition, ErrorState::kPosition).trace() /
+        std::max<double>(1.0, static_cast<double>(correspondences.size()));
     constraints.damping = soft_constraints(directions, config_.soft_weight, unit);
   }
   ScanVerdict verdict;

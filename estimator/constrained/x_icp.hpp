@@ -57,7 +57,7 @@ class XIcp final : public ScanRule {
   explicit XIcp(const XIcpConfig& config) : config_(config) {}
 
   RuledUpdate fuse(const Belief& prior, const NominalState& linearization,
-                   const PoseMeasurement& scan,
+                   const Linearization& scan,
                    std::span<const Correspondence> correspondences) const override;
 
  private:

@@ -63,5 +63,21 @@ TEST(ConstrainedLio, DcRegEndsWhereThePlainUpdateDoes) {
   }
 }
 
+// Until the legs are final, scans correct neither their scale nor their bias, whatever the rule.
+TEST(ConstrainedLio, LegsThatAreHeldKeepTheirScaleUnderARule) {
+  for (const bool held : {true, false}) {
+    Walk walk(true, std::make_unique<DcReg>(DcRegConfig{}));
+    walk.update.hold_legs(held);
+    Belief predicted = prediction(walk.truth);
+    const int scale = E::kLegScale.offset;
+    const int x = E::kPosition.offset;
+    predicted.covariance(scale, scale) = 0.01;
+    predicted.covariance(scale, x) = predicted.covariance(x, scale) = 2e-3;
+    const Belief updated = walk.fuse(predicted);
+    EXPECT_EQ(updated.state.leg_scale.x() == 0.0, held);
+    EXPECT_EQ(updated.covariance(scale, scale) == predicted.covariance(scale, scale), held);
+  }
+}
+
 }  // namespace
 }  // namespace aims

@@ -69,7 +69,7 @@ struct Problem {
   ErrorVector gradient = scan.jacobian.transpose() * scan.vector;
 
   Belief fused(const PoseConstraints& constraints) const {
-    return constrained_step(prior, prior.state, scan, constraints);
+    return constrained_step(prior, prior.state, {scan, {}}, constraints);
   }
   ErrorVector step(const PoseConstraints& constraints) const {
     return boxminus(fused(constraints).state, prior.state);
@@ -81,10 +81,13 @@ TEST(ConstrainedStep, WithoutConstraintsItIsThePlainUpdate) {
   NominalState elsewhere = problem.prior.state;
   elsewhere.position += Eigen::Vector3d(0.05, -0.03, 0.02);
   elsewhere.rotation = so3_exp({0.01, -0.02, 0.015}) * elsewhere.rotation;
-  const Belief plain = fuse(problem.prior, elsewhere, problem.scan);
-  const Belief step = constrained_step(problem.prior, elsewhere, problem.scan, {});
-  EXPECT_LT(boxminus(step.state, plain.state).norm(), 1e-9);
-  EXPECT_LT((step.covariance - plain.covariance).norm(), 1e-9 * plain.covariance.norm());
+  for (const bool legs : {true, false}) {
+    const GainMask mask{.legs = legs};
+    const Belief plain = fuse(problem.prior, elsewhere, problem.scan, mask);
+    const Belief step = constrained_step(problem.prior, elsewhere, {problem.scan, mask}, {});
+    EXPECT_LT(boxminus(step.state, plain.state).norm(), 1e-9) << legs;
+    EXPECT_LT((step.covariance - plain.covariance).norm(), 1e-9 * plain.covariance.norm());
+  }
 }
 
 TEST(ConstrainedStep, SolvesTheKktSystem) {
@@ -123,7 +126,7 @@ TEST(ConstrainedStep, HoldsThePredictionFromAnyLinearization) {
   constraints.equal.resize(1);
   NominalState elsewhere = problem.prior.state;
   elsewhere.position += Eigen::Vector3d(0.3, -0.1, 0.0);
-  const Belief belief = constrained_step(problem.prior, elsewhere, problem.scan, constraints);
+  const Belief belief = constrained_step(problem.prior, elsewhere, {problem.scan, {}}, constraints);
   const Eigen::Vector3d moved = belief.state.position - problem.prior.state.position;
   EXPECT_NEAR(constraints.equal[0].direction.tail<3>().dot(moved), 0.0, 1e-12);
 }
@@ -161,7 +164,8 @@ TEST(ConstrainedStep, StatesTheCovarianceOfItsErrors) {
     for (double& entry : white) entry = problem.random.normal();
     PoseMeasurement scan = problem.scan;
     scan.vector = -scan.matrix * (scan.jacobian * error) + kScale * (noise_root * white);
-    const Belief belief = constrained_step(problem.prior, problem.prior.state, scan, constraints);
+    const Belief belief =
+        constrained_step(problem.prior, problem.prior.state, {scan, {}}, constraints);
     const ErrorVector left = boxminus(boxplus(problem.prior.state, error), belief.state) / kScale;
     sample += left * left.transpose() / kDraws;
   }

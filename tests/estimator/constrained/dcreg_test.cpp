@@ -110,9 +110,10 @@ TEST(DcReg, HasTheMinimizerOfThePlainUpdate) {
     const Belief prior = test::vague_belief(random);
     const PoseMeasurement scan =
         measurement_of(corridor(400, random, 0.01 * random_vector(random)), 0.1);
-    const Belief plain = fuse(prior, prior.state, scan);
-    const RuledUpdate update =
-        DcReg({.tolerance = 1e-12, .max_iterations = 100}).fuse(prior, prior.state, scan, {});
+    const GainMask mask{.legs = i % 2 == 0};
+    const Belief plain = fuse(prior, prior.state, scan, mask);
+    const RuledUpdate update = DcReg({.tolerance = 1e-12, .max_iterations = 100})
+                                   .fuse(prior, prior.state, {scan, mask}, {});
     const double moved = boxminus(plain.state, prior.state).norm();
     EXPECT_LT(boxminus(update.belief.state, plain.state).norm(), 1e-6 * moved) << i;
     EXPECT_LT((update.belief.covariance - plain.covariance).norm(), 1e-6 * plain.covariance.norm());
@@ -127,7 +128,7 @@ TEST(DcReg, OfItsTenIterationsFewRemainToTheMinimizer) {
     const PoseMeasurement scan =
         measurement_of(corridor(400, random, 0.01 * random_vector(random)), 0.1);
     const Belief plain = fuse(prior, prior.state, scan);
-    const Belief update = DcReg({}).fuse(prior, prior.state, scan, {}).belief;
+    const Belief update = DcReg({}).fuse(prior, prior.state, {scan, {}}, {}).belief;
     EXPECT_LT((update.state.position - plain.state.position).norm(), 1e-4) << i;
   }
 }
@@ -144,7 +145,7 @@ TEST(DcReg, RegularizingHoldsDegenerateDirectionsOnly) {
   const PoseMeasurement measured = measurement_of(scan, 0.01);
   const auto all = schur_directions(measured.matrix, config);
   ASSERT_TRUE(all[3].degenerate);
-  const Belief belief = DcReg(config).fuse(prior, prior.state, measured, scan).belief;
+  const Belief belief = DcReg(config).fuse(prior, prior.state, {measured, {}}, scan).belief;
   // The prior is far weaker than the clamped information.
   EXPECT_NEAR(belief.state.position.x(), -0.01 * all[3].eigenvalue / all[3].clamped, 1e-3);
   EXPECT_NEAR(belief.state.position.y(), -0.01, 2e-4);

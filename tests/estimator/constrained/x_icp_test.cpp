@@ -141,7 +141,8 @@ TEST(XIcp, KeepsThePredictionAlongTheCorridorAndCorrectsTheRest) {
   Belief prior;
   prior.covariance *= 0.01;
   const Correspondences scan = misleading_scan(random);
-  const RuledUpdate update = XIcp({}).fuse(prior, prior.state, measurement_of(scan, 0.01), scan);
+  const RuledUpdate update =
+      XIcp({}).fuse(prior, prior.state, {measurement_of(scan, 0.01), {}}, scan);
   EXPECT_TRUE(update.verdict.translation);
   EXPECT_FALSE(update.verdict.rotation);
   EXPECT_FALSE(update.verdict.partial);
@@ -166,7 +167,8 @@ TEST(XIcp, SoftConstraintsShrinkTheStep) {
   XIcpConfig soft{.insufficient_information = 250.0, .soft_weight = 100.0};
   const LocalizedDirection ahead = localizability(scan, soft)[3];
   ASSERT_EQ(ahead.category, LocalizabilityCategory::kNone);
-  const RuledUpdate update = XIcp(soft).fuse(prior, prior.state, measurement_of(scan, 1.0), scan);
+  const RuledUpdate update =
+      XIcp(soft).fuse(prior, prior.state, {measurement_of(scan, 1.0), {}}, scan);
   const double ratio = ahead.eigenvalue / (ahead.eigenvalue + 1e4 / ahead.eigenvalue);
   EXPECT_NEAR(update.belief.state.position.x(), -0.01 * ratio, 1e-4);
   EXPECT_NEAR(ahead.eigenvalue, 200.0, 0.5);
