@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -57,6 +58,39 @@ class Jobs : public ::testing::Test {
 };
 
 TemporaryFolder* Jobs::sequences_ = nullptr;
+
+TEST_F(Jobs, OnRecordingsNeedNoSequenceAndOneThatCrashesIsAResult) {
+  const auto scenario = shared(short_walk());
+  std::vector<Job> jobs = {job_of(scenario, "aims"), job_of(scenario, "lio"),
+                           job_of(scenario, "leg")};
+  jobs[0].recorded = [](std::atomic<double>& part) {
+    part = 0.5;
+    JobResult result;
+    result.scores = {{"success", true}};
+    return result;
+  };
+  jobs[1].recorded = [](std::atomic<double>&) -> JobResult {
+    std::raise(SIGSEGV);
+    return {};
+  };
+  jobs[2].recorded = [](std::atomic<double>&) -> JobResult {
+    while (true) ::pause();
+  };
+  JobOptions some = options();
+  some.cache = folder_.path() / "cache";
+  JobRunner runner(some);
+  const auto done = runner.run(std::span(jobs).first(2), keep_going);
+  ASSERT_TRUE(done) << done.error().message;
+  EXPECT_EQ(done->done, 2U);
+  EXPECT_EQ(done->failed, 1U);
+  EXPECT_EQ(done->sequences, 0U);
+  EXPECT_EQ(runner.store().find(jobs[0].id)->scores["success"], true);
+  EXPECT_EQ(runner.store().find(jobs[1].id)->outcome, JobOutcome::kCrashed);
+  some.timeout_s = 0.2;
+  ASSERT_TRUE(JobRunner(some).run(std::span(jobs).last(1), keep_going));
+  EXPECT_EQ(runner.store().find(jobs[2].id)->outcome, JobOutcome::kTimedOut);
+  EXPECT_EQ(runner.run(jobs, keep_going)->reused, 3U);
+}
 
 TEST_F(Jobs, GiveTheSameScoresForAnyNumberOfJobsAndAreNeverRepeated) {
   const auto scenario = shared(short_walk());
