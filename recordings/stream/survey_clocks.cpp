@@ -15,6 +15,7 @@
 #include "recordings/median.hpp"
 #include "recordings/stream/record_clock.hpp"
 #include "recordings/stream/recording_survey.hpp"
+#include "recordings/stream/series_change.hpp"
 
 namespace aims {
 namespace {
@@ -104,18 +105,9 @@ std::optional<RecordingSurvey::LatencyGrowth> RecordingSurvey::growth_of(const S
   constexpr std::size_t kLeast = 10;  // messages of each third
   const std::size_t third = each.stamps.size() / 3;
   if (each.unstamped || third < kLeast || stamps_stand(each.stamps)) return std::nullopt;
-  std::array<Duration, 3> latency{}, stamp{};
-  for (std::size_t i = 0; i < latency.size(); ++i) {
-    const auto part = [&](const std::vector<std::int64_t>& all) {
-      const auto begin = all.begin() + static_cast<std::ptrdiff_t>(i * third);
-      return *upper_median(
-          std::vector<std::int64_t>(begin, begin + static_cast<std::ptrdiff_t>(third)));
-    };
-    latency[i] = part(each.latencies);
-    stamp[i] = part(each.stamps);
-  }
-  const LatencyGrowth found = {latency[2] - latency[0], stamp[2] - stamp[0],
-                               std::abs(latency[2] - 2 * latency[1] + latency[0])};
+  const SeriesGrowth latency(medians_of_thirds(each.latencies));
+  const auto stamps = medians_of_thirds(each.stamps);
+  const LatencyGrowth found = {latency.grown, stamps[2] - stamps[0], latency.is_even()};
   return found.span > 0 && found.rate() > 0.0 ? std::optional(found) : std::nullopt;
 }
 
@@ -131,8 +123,7 @@ std::optional<double> RecordingSurvey::record_rate() const {
     rates[topic] = growth->rate();
     if (growth->span > longest.span) longest = *growth;
   }
-  if (rates.size() < 2 || std::abs(longest.growth) < kMaxLatencyDifference ||
-      4 * longest.uneven > std::abs(longest.growth)) {
+  if (rates.size() < 2 || std::abs(longest.growth) < kMaxLatencyDifference || !longest.even) {
     return std::nullopt;
   }
   const double best = longest.rate();
@@ -255,30 +246,11 @@ std::optional<RecordingSurvey::Leap> RecordingSurvey::leap_of(const Seen& each) 
   constexpr std::size_t kLeast = 5;  // messages before and behind it
   const auto& latencies = each.latencies;
   if (latencies.size() < 2 * kLeast) return std::nullopt;
-  Leap leap;
-  Duration largest = kMaxLatencyDifference;
-  for (std::size_t i = kLeast; i + kLeast <= latencies.size(); ++i) {
-    const Duration step = std::abs(latencies[i] - latencies[i - 1]);
-    if (step <= largest) continue;
-    largest = step;
-    leap.at = i;
-  }
-  if (leap.at == 0) return std::nullopt;
-  const auto middle = latencies.begin() + static_cast<std::ptrdiff_t>(leap.at);
-  const Duration before = *upper_median(std::vector<Duration>(latencies.begin(), middle));
-  const Duration behind = *upper_median(std::vector<Duration>(middle, latencies.end()));
-  leap.stamps = before - behind;
-  leap.recorded = each.stamps[leap.at] + latencies[leap.at];
-  const auto strays = [](auto begin, auto end, Duration usual) {
-    return std::count_if(begin, end, [usual](Duration latency) {
-      return std::abs(latency - usual) > kMaxLatencyDifference / 2;
-    });
-  };
-  const auto odd =
-      strays(latencies.begin(), middle, before) + strays(middle, latencies.end(), behind);
-  const bool lasts = static_cast<std::size_t>(odd) * 10 < latencies.size();
-  if (!lasts || std::abs(leap.stamps) < kMaxLatencyDifference) return std::nullopt;
-  return leap;
+  const auto half = [](Duration /*step*/) { return kMaxLatencyDifference / 2; };
+  const auto found = largest_leap(latencies, kLeast, kMaxLatencyDifference, half);
+  const bool lasts = found && 10 * found->strays < latencies.size();
+  if (!lasts || std::abs(found->step()) < kMaxLatencyDifference) return std::nullopt;
+  return Leap{found->at, each.stamps[found->at] + latencies[found->at], -found->step()};
 }
 
 /// Whether another topic goes on there as before: then it is no leap of the recorder's clock.
