@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/estimate/dataset_profile.hpp"
+#include "core/files/atomic_file.hpp"
 #include "core/files/tum.hpp"
 #include "core/text.hpp"
 #include "tests/bench/datasets/data_sets.hpp"
