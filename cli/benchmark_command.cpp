@@ -79,7 +79,7 @@ Result<Answer> benchmark_command(const BenchmarkArguments& arguments) {
     return tl::unexpected(written.error());
   }
   print_out("{}\n{}\n", done->profile.title, to_text(benchmark_table(*done)));
-  for (const std::string& note : benchmark_notes(*done)) print_out("note: {}\n", note);
+  for (const std::string& note : done->notes) print_out("note: {}\n", note);
   print_outcome(done->suite, shared);
   print_out("results: {}\n", (fs::path(shared.out) / "benchmark.md").string());
   if (!arguments.no_page) write_pages_of(shared.out, shared.quiet);

@@ -32,8 +32,10 @@ void describe_clouds(Fields& f, RecordingConfig& c) {
             {"s", PointTimeUnit::kSeconds},
             {"ms", PointTimeUnit::kMilliseconds},
             {"us", PointTimeUnit::kMicroseconds},
-            {"ns", PointTimeUnit::kNanoseconds}},
-           dimensionless("unit of the points' times; auto: from their span and the scan period"));
+            {"ns", PointTimeUnit::kNanoseconds},
+            {"none", PointTimeUnit::kNone}},
+           dimensionless("unit of the points' times; auto: from their span and the scan period; "
+                         "none: azimuths serve in place of the times"));
   f.choice("cloud_stamp", c.cloud_stamp,
            {{"auto", CloudStamp::kAuto}, {"start", CloudStamp::kStart}, {"end", CloudStamp::kEnd}},
            dimensionless("end of the scan that a cloud's stamp marks; auto: from the points' times "

@@ -62,7 +62,7 @@ constexpr double radians_per(JointUnit unit) {
 }
 /// Unit of the points' coordinates.
 enum class PointUnit { kMetres, kCentimetres, kMillimetres };
-enum class PointTimeUnit { kAuto, kSeconds, kMilliseconds, kMicroseconds, kNanoseconds };
+enum class PointTimeUnit { kAuto, kSeconds, kMilliseconds, kMicroseconds, kNanoseconds, kNone };
 /// Instant of the scan that a cloud's header stamp marks.
 enum class CloudStamp { kAuto, kStart, kEnd };
 

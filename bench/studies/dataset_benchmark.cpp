@@ -188,10 +188,25 @@ std::vector<std::string> sequence_notes(const DatasetBenchmark& benchmark) {
   return lines;
 }
 
+std::vector<std::string> benchmark_notes(const DatasetBenchmark& benchmark) {
+  const DatasetProfile& profile = benchmark.profile;
+  std::vector<std::string> notes = {
+      benchmark_score_text(profile),
+      profile.published_source.empty()
+          ? std::string("published: no figures were read in a source that could be checked")
+          : fmt::format("published: {}", profile.published_source),
+      fmt::format("cite: {}", profile.citation),
+      fmt::format("data: {}; licence: {}", profile.url, profile.licence),
+      fmt::format("this profile is tested on {}", profile.tested)};
+  notes.insert(notes.end(), profile.notes.begin(), profile.notes.end());
+  for (std::string& each : sequence_notes(benchmark)) notes.push_back(std::move(each));
+  return notes;
+}
+
 std::string markdown(const DatasetBenchmark& benchmark) {
   std::string text =
       fmt::format("# {}\n\n{}\n", benchmark.profile.title, to_markdown(benchmark_table(benchmark)));
-  for (const std::string& note : benchmark_notes(benchmark)) text += fmt::format("- {}\n", note);
+  for (const std::string& note : benchmark.notes) text += fmt::format("- {}\n", note);
   return text;
 }
 
@@ -200,7 +215,7 @@ std::string markdown(const DatasetBenchmark& benchmark) {
 Result<DatasetBenchmark> run_dataset_benchmark(DatasetProfile profile,
                                                std::vector<DatasetSequence> sequences,
                                                JobOptions options, const JobObserver& observer) {
-  DatasetBenchmark benchmark{std::move(profile), std::move(sequences), {}};
+  DatasetBenchmark benchmark{std::move(profile), std::move(sequences), {}, {}};
   const JobStore store(options.out);
   std::vector<Job> jobs;
   for (const DatasetSequence& sequence : benchmark.sequences) {
@@ -229,6 +244,8 @@ Result<DatasetBenchmark> run_dataset_benchmark(DatasetProfile profile,
   if (!run) return tl::unexpected(run.error());
   benchmark.suite.run = *run;
   collect_suite(store, benchmark.suite);
+  benchmark.suite.lead_score = benchmark.profile.score;
+  benchmark.notes = benchmark_notes(benchmark);
   return benchmark;
 }
 
@@ -258,21 +275,6 @@ std::string benchmark_score_text(const DatasetProfile& profile) {
   return fmt::format("{} [{}]: {}", profile.score, profile.unit, profile.score_text);
 }
 
-std::vector<std::string> benchmark_notes(const DatasetBenchmark& benchmark) {
-  const DatasetProfile& profile = benchmark.profile;
-  std::vector<std::string> notes = {
-      benchmark_score_text(profile),
-      profile.published_source.empty()
-          ? std::string("published: no figures were read in a source that could be checked")
-          : fmt::format("published: {}", profile.published_source),
-      fmt::format("cite: {}", profile.citation),
-      fmt::format("data: {}; licence: {}", profile.url, profile.licence),
-      fmt::format("this profile is tested on {}", profile.tested)};
-  notes.insert(notes.end(), profile.notes.begin(), profile.notes.end());
-  for (std::string& each : sequence_notes(benchmark)) notes.push_back(std::move(each));
-  return notes;
-}
-
 Json benchmark_json(const DatasetBenchmark& benchmark) {
   const DatasetProfile& profile = benchmark.profile;
   Json json = {{"schema", kBenchmarkSchema},
@@ -289,7 +291,7 @@ Json benchmark_json(const DatasetBenchmark& benchmark) {
                {"better", better_of(profile.score) == Better::kLarger ? "larger" : "smaller"},
                {"published_source", profile.published_source},
                {"complete", benchmark.suite.complete},
-               {"notes", benchmark_notes(benchmark)},
+               {"notes", benchmark.notes},
                {"sequences", Json::array()},
                {"failures", failures_json(benchmark.suite.failures)}};
   for (std::size_t i = 0; i < benchmark.sequences.size(); ++i) {

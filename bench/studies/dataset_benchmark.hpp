@@ -18,6 +18,9 @@ struct DatasetBenchmark {
   DatasetProfile profile;
   std::vector<DatasetSequence> sequences;
   Suite suite;  ///< a case per sequence, with one run of seed 0
+  /// What the columns are, where the published ones are from, and what was assumed of each
+  /// sequence.
+  std::vector<std::string> notes;
 };
 
 /// Does what `options.out` lacks, each estimator on each sequence in a process of its own.
@@ -27,9 +30,6 @@ Result<DatasetBenchmark> run_dataset_benchmark(DatasetProfile profile,
 
 /// A row per sequence: the score of each estimator here, then the published ones.
 TextTable benchmark_table(const DatasetBenchmark& benchmark);
-
-/// What the columns are, where the published ones are from, and what was assumed of each sequence.
-std::vector<std::string> benchmark_notes(const DatasetBenchmark& benchmark);
 
 /// The score of the profile, its unit, and how its authors compute it.
 std::string benchmark_score_text(const DatasetProfile& profile);

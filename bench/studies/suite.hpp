@@ -34,6 +34,7 @@ struct Suite {
   std::vector<Job> jobs;  ///< by case, seed and estimator
   std::vector<RunFailure> failures;
   std::vector<std::string> settings;  ///< "key=value" on top of every scenario, but who runs
+  std::string lead_score;             ///< key of the score that goes first; empty: the headline
   bool complete = true;               ///< false when jobs are missing
   JobRun run;                         ///< what this invocation did
 };

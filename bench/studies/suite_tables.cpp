@@ -115,6 +115,23 @@ std::string failures_markdown(const Suite& suite) {
   return text.empty() ? "Everything ran, and every run is valid.\n" : text;
 }
 
+/// The headline scores; those of a data set are led by its own.
+std::vector<Score> scores_of(const Suite& suite) {
+  std::vector<Score> scores(headline_scores().begin(), headline_scores().end());
+  const std::string& lead = suite.lead_score;
+  if (lead.empty()) return scores;
+  const auto listed = std::ranges::find(scores, lead, &Score::key);
+  if (listed != scores.end()) {
+    std::rotate(scores.begin(), listed, listed + 1);
+    return scores;
+  }
+  Score first = score_at(lead);
+  first.key = lead.c_str();
+  if (first.title.empty()) first.title = lead;
+  scores.insert(scores.begin(), first);
+  return scores;
+}
+
 }  // namespace
 
 TextTable headline_table(const Suite& suite, const Score& score) {
@@ -181,7 +198,7 @@ std::string suite_markdown(const Suite& suite, const std::vector<FamilyResult>& 
       "Each cell: median [95 % bootstrap interval of the median] worst, over seeds. Below about\n"
       "ten seeds the intervals are coarse and too narrow; with one seed there are none.\n";
   if (has_part(suite)) text += kPartLegend;
-  for (const Score& score : headline_scores()) {
+  for (const Score& score : scores_of(suite)) {
     text += fmt::format("\n## {} [{}]\n\n{}", score.title, score.unit,
                         to_markdown(headline_table(suite, score)));
   }
@@ -202,7 +219,7 @@ std::string suite_markdown(const Suite& suite, const std::vector<FamilyResult>& 
 
 std::string suite_latex(const Suite& suite) {
   std::string text;
-  for (const Score& score : headline_scores()) {
+  for (const Score& score : scores_of(suite)) {
     text += fmt::format("% {} [{}]: median [95 % bootstrap interval] worst\n{}\n", score.title,
                         score.unit, to_latex(headline_table(suite, score)));
   }

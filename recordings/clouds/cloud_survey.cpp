@@ -103,6 +103,8 @@ void CloudSurvey::read_points(const PointTable& table, Cloud& cloud) {
   cloud.ranges.resize(times.size());
   rings_.begin(table);
   turn_parts_.begin();
+  turn_times_.resize(times.size());
+  for (TurnTimes& each : turn_times_) each.begin(clouds_.size());
   last_azimuths_.assign(static_cast<std::size_t>(std::numbers::pi / kElevationBin) + 1, {});
   for (std::size_t i = 0; i < table.size(); ++i) {
     const std::byte* bytes = table.point(i);
@@ -117,7 +119,10 @@ void CloudSurvey::read_points(const PointTable& table, Cloud& cloud) {
       if (std::isfinite(value)) largest_intensity_ = std::max(largest_intensity_, value);
     }
     for (std::size_t field = 0; field < times.size(); ++field) {
-      if (times[field]) extend(cloud.ranges[field], times[field]->at(bytes));
+      if (!times[field]) continue;
+      const double time = times[field]->at(bytes);
+      extend(cloud.ranges[field], time);
+      turn_times_[field].add(position, time);
     }
   }
 }
@@ -240,7 +245,9 @@ void CloudSurvey::decide_times(const RecordingConfig& config, CloudReading& read
   const Duration about =
       std::min(upper_median(spacings(stamps())).value_or(fallback), kLongestScan);
   std::optional<Duration> span;
-  for (std::size_t field = 0; field < time_fields_.size(); ++field) {
+  const bool unused = config.point_time_unit == PointTimeUnit::kNone;
+  std::size_t field = 0;
+  for (; field < time_fields_.size() && !unused; ++field) {
     if (decide_clock(config, field, about, reading)) {
       span = firing_span(field, reading.time_unit);
       break;
@@ -270,8 +277,13 @@ void CloudSurvey::decide_times(const RecordingConfig& config, CloudReading& read
                     reading.time_field, first_firing_ns(reading) < 0.0 ? "-1 to 0" : "0 to 1",
                     to_seconds(reading.period)));
   }
-  if (too_long) warn_of_length(*span, about, reading, notes);
-  if (span && reading.spacing > reading.period) warn_of_shortness(*span, reading, notes);
+  const TurnTimes& times = turn_times_[field];
+  warn_of_fall(times, reading, notes);
+  const bool overlaps = span && 5 * *span >= 6 * std::max(about, mean_spacing());
+  if (!warn_of_scale(times, about, reading, notes)) {
+    if (too_long || (overlaps && !times.turn())) warn_of_length(*span, about, reading, notes);
+    if (span && reading.spacing > reading.period) warn_of_shortness(*span, reading, notes);
+  }
   notes.push_back(fmt::format("point time: field '{}' in {}, {}", reading.time_field,
                               unit_name(reading.time_unit),
                               kOrigins[static_cast<std::size_t>(reading.clock)]));
@@ -300,11 +312,67 @@ void CloudSurvey::warn_of_shortness(Duration span, const CloudReading& reading,
                   unit_name(reading.time_unit)));
 }
 
+/// The stamps of the clouds on the clock of the points' times, in the unit of their field.
+std::vector<double> CloudSurvey::stamps_in_field(const CloudReading& reading) const {
+  const auto name = std::ranges::find(time_fields_, reading.time_field);
+  const auto field = static_cast<std::size_t>(name - time_fields_.begin());
+  std::vector<double> all;
+  for (const Cloud& cloud : clouds_) {
+    const bool known = cloud.ranges.size() > field && cloud.ranges[field];
+    double stamp = 0.0;
+    if (reading.clock == PointClock::kEpoch) {
+      stamp = static_cast<double>(cloud.stamp - cloud.time_base.value_or(0)) / reading.time_unit;
+    } else if (reading.clock == PointClock::kOther && known) {
+      stamp = cloud.ranges[field]->first;
+    }
+    all.push_back(stamp);
+  }
+  return all;
+}
+
+/// What to do about times that cannot serve.
+std::string_view CloudSurvey::remedy_of(const TurnTimes& times) {
+  return times.turn() ? "correct them in the driver, or set recording.point_time_unit=none: then "
+                        "azimuths serve in their place"
+                      : "correct them in the driver";
+}
+
+/// Warns of times that fall where they should rise.
+void CloudSurvey::warn_of_fall(const TurnTimes& times, const CloudReading& reading,
+                               ReadingNotes& notes) {
+  if (!times.fall()) return;
+  notes.warn("point times run backwards",
+             fmt::format("point field '{}' falls from point to point of each ring: its times run "
+                         "backwards, as with the wrong sign (or the points are stored in reverse "
+                         "order, which is no fault); {}",
+                         reading.time_field, remedy_of(times)));
+}
+
+/// Warns of times of a spinning LiDAR that its azimuths contradict; whether they do.
+bool CloudSurvey::warn_of_scale(const TurnTimes& times, Duration about, const CloudReading& reading,
+                                ReadingNotes& notes) const {
+  constexpr double kMostMisfit = 0.15;  // of a turn
+  if (unstamped()) return false;
+  const auto turn = times.turn();
+  const auto misfit = times.misfit(stamps(), stamps_in_field(reading), reading.time_unit);
+  if (!turn || !misfit || std::abs(*misfit) < kMostMisfit) return false;
+  const double length = 1e-9 * reading.time_unit * std::abs(*turn);
+  const double whole = to_seconds(about) * reading.parts.count;
+  notes.warn(
+      "point times of another scale",
+      fmt::format("by point field '{}' a turn takes {:.3g} s, but by the azimuths of clouds "
+                  "that come every {:.3g} s it does not: the times are perhaps {:.2g} times "
+                  "the true ones; {}",
+                  reading.time_field, length, to_seconds(about), length / whole, remedy_of(times)));
+  return true;
+}
+
 void CloudSurvey::note_azimuth_times(const CloudReading& reading, ReadingNotes& notes) const {
   notes.warn(
       "point times derived from azimuth",
-      fmt::format("points have no time: derived from azimuth, spinning {}, {:.4g} s per turn "
+      fmt::format("{}: derived from azimuth, spinning {}, {:.4g} s per turn "
                   "(lidar_clockwise, lidar_rate)",
+                  time_fields_.empty() ? "points have no time" : "times of points do not serve",
                   reading.clockwise ? "clockwise" : "counter-clockwise",
                   to_seconds(reading.scan_period())));
   const int steps = rising_azimuths_ + falling_azimuths_;

@@ -3,12 +3,14 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "recordings/clouds/point_cloud.hpp"
 #include "recordings/clouds/ring_survey.hpp"
 #include "recordings/clouds/stamp_steps.hpp"
 #include "recordings/clouds/turn_parts.hpp"
+#include "recordings/clouds/turn_times.hpp"
 #include "recordings/reading_notes.hpp"
 
 namespace aims {
@@ -46,6 +48,12 @@ class CloudSurvey {
   static void warn_of_length(Duration span, Duration about, const CloudReading& reading,
                              ReadingNotes& notes);
   static void warn_of_shortness(Duration span, const CloudReading& reading, ReadingNotes& notes);
+  static std::string_view remedy_of(const TurnTimes& times);
+  static void warn_of_fall(const TurnTimes& times, const CloudReading& reading,
+                           ReadingNotes& notes);
+  bool warn_of_scale(const TurnTimes& times, Duration about, const CloudReading& reading,
+                     ReadingNotes& notes) const;
+  std::vector<double> stamps_in_field(const CloudReading& reading) const;
   Duration mean_spacing() const;
   void stamp_by_record(CloudReading& reading, ReadingNotes& notes) const;
   bool decide_clock(const RecordingConfig& config, std::size_t field, Duration about,
@@ -71,6 +79,7 @@ class CloudSurvey {
   std::vector<double> ranges_;  ///< of the first points [m]
   RingSurvey rings_;
   TurnPartFinder turn_parts_;
+  std::vector<TurnTimes> turn_times_;                ///< by candidate field
   std::vector<std::optional<float>> last_azimuths_;  ///< in this cloud, by elevation [rad]
   int rising_azimuths_ = 0, falling_azimuths_ = 0;
 };

@@ -14,8 +14,10 @@
 #include "recordings/inspection/topic_statistics.hpp"
 #include "recordings/messages/message_values.hpp"
 #include "recordings/source/recording_file.hpp"
+#include "recordings/stream/latency_trend.hpp"
 #include "recordings/stream/record_clock.hpp"
 #include "recordings/stream/recording_reader.hpp"
+#include "recordings/stream/stream_warnings.hpp"
 #include "recordings/topics/connection_decoders.hpp"
 #include "recordings/topics/topic_choice.hpp"
 
@@ -34,15 +36,19 @@ class Survey {
     const auto view = decode(message, info);
     std::optional<Time> stamp = view ? view->time("header.stamp") : std::nullopt;
     times.add(message.record_time, stamp);
+    if (stamp.value_or(0) != 0) {
+      trends_[connection.topic].add(message.record_time, message.record_time - *stamp);
+    }
     if (message.record_time > kSetRecordTime)
       first_set_ = std::min(first_set_, message.record_time);
-    if (stamp == 0) stamp = message.record_time;  // never set
+    if (stamp) stamp = advancing(connection.topic, *stamp, message.record_time);
     if (!view) return;
     if (!frames_.contains(connection.topic)) {
       frames_[connection.topic] = std::string(view->text("header.frame_id").value_or(""));
     }
     if (is_cloud_type(connection.type)) {
-      clouds_.try_emplace(connection.topic, connection.topic).first->second.add(*view);
+      clouds_.try_emplace(connection.topic, connection.topic)
+          .first->second.add(*view, stamp.value_or(message.record_time));
     } else if (is_imu_type(connection.type)) {
       imus_.try_emplace(connection.topic, connection.topic)
           .first->second.add(*view, stamp.value_or(message.record_time));
@@ -73,7 +79,36 @@ class Survey {
     for (auto& [topic, survey] : imus_) info.imus.push_back(survey.finish());
   }
 
+  /// Finds clocks of sensors that are read and run at another rate than that of the IMU.
+  void compare_rates(BagInfo& info) const {
+    const std::string& imu = info.used.imu;
+    if (!has_clock(info, imu)) return;
+    for (const auto& topic : {info.used.lidar, info.used.leg_odometry, info.used.joint_states}) {
+      if (topic == imu || !has_clock(info, topic)) continue;
+      const auto growth = trends_.at(imu).growth(trends_.at(topic));
+      if (!growth) continue;
+      info.rates_text = warning_of_rates(imu, topic, *growth).text;
+      return;
+    }
+  }
+
  private:
+  /// The stamp; the time by the recorder where it was never set, or is still that of the first
+  /// message.
+  Time advancing(const std::string& topic, Time stamp, Time recorded) {
+    if (stamp == 0) return recorded;
+    const auto first = first_stamps_.try_emplace(topic, stamp, recorded).first;
+    const auto& [first_stamp, first_recorded] = first->second;
+    return stamp == first_stamp ? stamp + (recorded - first_recorded) : stamp;
+  }
+
+  /// Whether the stamps of a topic advance from message to message.
+  bool has_clock(const BagInfo& info, const std::string& topic) const {
+    const TopicInfo* found = info.find(topic);
+    return found != nullptr && trends_.contains(topic) && found->stamped &&
+           !found->messages_per_stamp;
+  }
+
   void add_turn_rate(const std::string& topic, const MessageView& message, const char* path,
                      std::optional<Time> stamp) {
     const auto rate = vector_at(message, path);
@@ -126,6 +161,8 @@ class Survey {
   Time first_set_ = std::numeric_limits<Time>::max();  ///< record time of a set clock
   ConnectionDecoders decoders_;
   std::map<std::string, TopicStatistics> statistics_;
+  std::map<std::string, LatencyTrend> trends_;
+  std::map<std::string, std::pair<Time, Time>> first_stamps_;  ///< and their record times
   std::map<std::string, std::string> frames_;
   std::map<std::string, CloudInspection> clouds_;
   std::map<std::string, ImuInspection> imus_;
@@ -199,6 +236,10 @@ Result<BagInfo> bag_info(const std::filesystem::path& bag, const RecordingConfig
   for (const std::string& type : info.undefined) {
     info.notes.push_back(
         fmt::format("{}: the recording has no definition of this type: not decoded", type));
+  }
+  survey.compare_rates(info);
+  for (CloudInfo& each : info.clouds) {
+    if (each.topic != info.used.lidar) each.repeated_text.clear();  // a map may be sent again
   }
   info.extrinsics_configured = config.T_imu_lidar.is_given();
   info.warnings = bag_warnings(info);

@@ -27,6 +27,7 @@ struct TopicInfo {
   std::uint64_t messages = 0;
   bool stamped = false;                  ///< the messages have stamps other than zero
   bool zero_stamps = false;              ///< all stamps are zero: record times serve
+  bool same_stamps = false;              ///< all are the same, not zero: likewise
   std::uint64_t unset_record_times = 0;  ///< recorded at time 0
   double recorder_step_s = 0.0;          ///< by which the recorder's clock was set back
   std::optional<double> rate_hz;         ///< of the median spacing of stamps
@@ -62,6 +63,7 @@ struct CloudInfo {
   std::string first_broken;            ///< error of the first
   double mean_points = 0.0;            ///< per cloud
   double not_finite_fraction = 0.0;    ///< of the points [-]
+  std::string repeated_text;           ///< where clouds are sent again under new stamps; else empty
 
   const PointFieldInfo* find(const std::string& name) const;
   const PointFieldInfo* time_field() const;  ///< nullptr: points have no time
@@ -113,6 +115,7 @@ struct BagInfo {
   bool opens_without_lidar = false;    ///< refused, but not with recording.topics.lidar=none
   bool extrinsics_configured = false;  ///< T_imu_lidar of the configuration is used
   std::vector<std::string> notes;      ///< of `aims estimate`: assumptions and conversions
+  std::string rates_text;              ///< where clocks run at different rates; else empty
   std::optional<std::string> refusal;  ///< error of `aims estimate`, if it cannot read the bag
   std::vector<std::string> warnings;   ///< problems, each with its remedy
 

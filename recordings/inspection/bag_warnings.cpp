@@ -132,11 +132,11 @@ void warn_of_stamps(const BagInfo& info, const TopicInfo& topic, std::vector<std
 
 void warn_of_times(const BagInfo& info, const TopicInfo& topic, std::vector<std::string>& out) {
   if (!is_sensor(topic) || topic.messages < 2) return;
-  if (topic.zero_stamps) {
+  if (topic.zero_stamps || topic.same_stamps) {
     out.push_back(
-        fmt::format("{}: all stamps are zero; record times are used: set the stamps in the "
+        fmt::format("{}: all stamps are {}; record times are used: set the stamps in the "
                     "driver",
-                    topic.topic));
+                    topic.topic, topic.zero_stamps ? "zero" : "the same"));
   }
   const bool paused = common_gap(info).has_value();  // said once
   if (!paused && topic.loss.value_or(0.0) > kMaxLoss) {
@@ -205,6 +205,7 @@ void warn_of_clouds(const CloudInfo& cloud, std::vector<std::string>& out) {
                               cloud.broken, cloud.first_broken));
   }
   if (cloud.clouds == 0) return;
+  if (!cloud.repeated_text.empty()) out.push_back(cloud.repeated_text);
   if (!cloud.time_field()) {
     out.push_back(
         fmt::format("{}: points have no time; it is derived from their azimuth: enable it in the "
@@ -320,7 +321,11 @@ std::vector<std::string> bag_warnings(const BagInfo& info) {
     warn_of_times(info, each, out);
     warn_of_clock(info, each, out);
   }
-  warn_of_offsets(info, out);
+  if (info.rates_text.empty()) {
+    warn_of_offsets(info, out);
+  } else {
+    out.push_back(info.rates_text);
+  }
   for (const CloudInfo& each : info.clouds) warn_of_clouds(each, out);
   for (const ImuInfo& each : info.imus) warn_of_imu(info, each, out);
   if (!info.clouds.empty() && !has_sensor_transform(info) && !info.extrinsics_configured) {

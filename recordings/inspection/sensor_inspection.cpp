@@ -45,32 +45,40 @@ std::vector<double> numbers_of(const ImuSample& sample) {
 
 CloudInspection::CloudInspection(std::string topic) { info_.topic = std::move(topic); }
 
-void CloudInspection::add(const MessageView& message) {
-  if (info_.clouds == kMaxClouds) return;
-  const auto table = point_table(message);
-  if (!table) {
+void CloudInspection::add(const MessageView& message, Time stamp) {
+  auto table = point_table(message);
+  const bool examined = info_.clouds < kMaxClouds;
+  if (!table && examined) {
     ++info_.broken;
     info_.first_broken = info_.first_broken.empty() ? table.error().message : info_.first_broken;
-    return;
   }
+  if (!table) return;
+  table->stamp = stamp;
+  repeats_.add(*table);
+  if (examined) add_layout(*table, message);
+}
+
+void CloudInspection::add_layout(const PointTable& table, const MessageView& message) {
   if (info_.clouds++ == 0) {
-    info_.height = table->height;
-    info_.driver = driver_of(*table);
-    info_.point_step = table->point_step;
+    info_.height = table.height;
+    info_.driver = driver_of(table);
+    info_.point_step = table.point_step;
     info_.dense = message.number("is_dense").value_or(1.0) != 0.0;
-    for (const ColumnLayout& each : table->columns) {
+    for (const ColumnLayout& each : table.columns) {
       info_.fields.push_back({each.name, std::string(name_of(each.type)), each.offset});
     }
   }
-  points_ += table->size();
-  const PointField x(*table, *table->find("x"));
-  for (std::size_t i = 0; i < table->size(); ++i) {
-    not_finite_ += std::isfinite(x.at(table->point(i))) ? 0 : 1;
+  points_ += table.size();
+  const PointField x(table, *table.find("x"));
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    not_finite_ += std::isfinite(x.at(table.point(i))) ? 0 : 1;
   }
 }
 
 CloudInfo CloudInspection::finish() const {
   CloudInfo info = info_;
+  if (repeats_.found())
+    info.repeated_text = repeated_clouds_text(info.topic, repeats_.repeated(), repeats_.clouds());
   if (info.clouds > 0) {
     info.mean_points = static_cast<double>(points_) / static_cast<double>(info.clouds);
   }

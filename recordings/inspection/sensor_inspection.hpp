@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/measurements.hpp"
+#include "recordings/clouds/repeated_clouds.hpp"
 #include "recordings/inspection/bag_info.hpp"
 #include "recordings/inspection/static_interval.hpp"
 #include "recordings/messages/message_decoder.hpp"
@@ -14,15 +15,19 @@
 
 namespace aims {
 
-/// Layout of the first clouds of a topic.
+/// Layout of the first clouds of a topic, and whether later ones repeat.
 class CloudInspection {
  public:
   explicit CloudInspection(std::string topic);
-  void add(const MessageView& message);
+  /// `stamp`: of the header, or the record time.
+  void add(const MessageView& message, Time stamp);
   CloudInfo finish() const;
 
  private:
+  void add_layout(const PointTable& table, const MessageView& message);
+
   CloudInfo info_;
+  RepeatedClouds repeats_;
   std::uint64_t points_ = 0;
   std::uint64_t not_finite_ = 0;
 };

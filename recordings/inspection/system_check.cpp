@@ -39,6 +39,9 @@ bool SystemCheck::clouds() {
   if (bag_.cloud) {
     met("3-D LiDAR clouds",
         fmt::format("{}, {:.0f} points", bag_.cloud->topic, bag_.cloud->mean_points));
+    if (!bag_.cloud->repeated_text.empty()) {
+      add(Fulfilment::kPoor, "clouds that are new", "", bag_.cloud->repeated_text);
+    }
     return true;
   }
   add(Fulfilment::kMissing, "3-D LiDAR clouds", "none",

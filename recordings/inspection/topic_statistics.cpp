@@ -13,9 +13,10 @@ namespace {
 constexpr std::size_t kMaxSamples = 1'000'000;
 /// Ratio to the typical spacing above which messages may be lost [-].
 constexpr double kLossThreshold = 1.5;
-constexpr std::size_t kCatchUp = 5;  ///< spacings on either side that may make up for a long one
-constexpr std::size_t kSpan = 4;     ///< spacings over which jitter is averaged
-constexpr double kMinStep = 0.2;     ///< of the recorder's clock [s]
+constexpr std::size_t kCatchUp = 5;     ///< spacings on either side that may make up for a long one
+constexpr std::size_t kSpan = 4;        ///< spacings over which jitter is averaged
+constexpr std::size_t kFewestSame = 3;  ///< messages of a clock that stands still
+constexpr double kMinStep = 0.2;        ///< of the recorder's clock [s]
 
 /// Differences in seconds, of which those of repeated and earlier stamps are left out.
 std::vector<double> forward(const std::vector<double>& spacings) {
@@ -120,10 +121,12 @@ void TopicStatistics::finish_offsets(TopicInfo& info) const {
 
 void TopicStatistics::finish(TopicInfo& info) {
   info.messages = messages_;
-  info.zero_stamps = stamped_ && entries_.size() > 1 &&
-                     std::ranges::all_of(entries_, [](const Entry& e) { return e.stamp == 0; });
-  info.stamped = stamped_ && !info.zero_stamps;
-  if (info.zero_stamps) {
+  const auto is_first = [&](const Entry& e) { return e.stamp == entries_.front().stamp; };
+  const bool same = stamped_ && entries_.size() > 1 && std::ranges::all_of(entries_, is_first);
+  info.zero_stamps = same && entries_.front().stamp == 0;
+  info.same_stamps = same && !info.zero_stamps && entries_.size() >= kFewestSame;
+  info.stamped = stamped_ && !info.zero_stamps && !info.same_stamps;
+  if (info.zero_stamps || info.same_stamps) {
     for (Entry& each : entries_) each.stamp = each.record;
   }
   const auto unset = [](const Entry& each) {

@@ -69,7 +69,12 @@ void LegStream::check_imu(const ImuSample& sample) {
 }
 
 std::vector<ReadingWarning> LegStream::warnings() const {
-  std::vector<ReadingWarning> found = check_.warnings();
+  std::vector<ReadingWarning> found;
+  if (auto rates = rate_check_.warning()) {  // which spoil all that the feet tell
+    found.push_back(std::move(*rates));
+  } else {
+    found = check_.warnings();
+  }
   if (auto twist = twist_check_.warning()) found.push_back(std::move(*twist));
   return found;
 }
@@ -364,6 +369,7 @@ std::optional<LegOdometrySample> LegStream::finish(LegOdometrySample sample,
 
 std::optional<LegOdometrySample> LegStream::add_joints(JointReading reading, EventCounts& counts) {
   keep_unknown(reading, counts);
+  if (rates_seen_) rate_check_.add(reading);  // zeros until then are none
   // No rate is a difference to angles of the same stamp.
   if (joints_ && reading.stamp == joints_->stamp && lacks_rates(reading)) {
     return ++counts["joints_stamp_repeated"], std::nullopt;

@@ -10,6 +10,7 @@
 #include "core/leg_kinematics.hpp"
 #include "core/measurements.hpp"
 #include "recordings/event_counts.hpp"
+#include "recordings/legs/joint_rates.hpp"
 #include "recordings/legs/leg_check.hpp"
 #include "recordings/legs/leg_messages.hpp"
 #include "recordings/legs/twist_check.hpp"
@@ -95,6 +96,7 @@ class LegStream {
   LegStreamConfig config_;
   UpDirection up_;
   TwistCheck twist_check_;
+  JointRateCheck rate_check_;
   LegCheck check_;
   std::optional<ImuSample> imu_;
   std::optional<JointReading> joints_;

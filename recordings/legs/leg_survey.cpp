@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace aims {
 namespace {
@@ -23,8 +24,9 @@ bool is_world_frame(const std::string& frame) {
 void LegSurvey::add_joints(const MessageView& message, Time record_time, const StateLayout* state) {
   ++joint_messages_;
   joint_rule_.state = state;
-  if (joints_at(message, record_time, joint_rule_)) {
+  if (const auto joints = joints_at(message, record_time, joint_rule_)) {
     ++complete_joint_messages_;
+    add_rates(*joints);
   } else if (config_.joint_names.empty() && unnamed_joints_at(message, joint_rule_)) {
     ++unnamed_joint_messages_;
   }
@@ -39,6 +41,13 @@ void LegSurvey::add_joints(const MessageView& message, Time record_time, const S
                          });
   }
   if (const auto effort = message.numbers("effort"); effort && !effort->empty()) ++effort_messages_;
+}
+
+/// Rates that are zero until the joints turn are none.
+void LegSurvey::add_rates(const JointReading& joints) {
+  const auto is_rate = [](double each) { return each != 0.0; };
+  rates_seen_ = rates_seen_ || (joints.velocity && std::ranges::any_of(*joints.velocity, is_rate));
+  if (rates_seen_) rate_check_.add(joints);
 }
 
 /// Notes angles that are too large for a leg.
@@ -178,6 +187,7 @@ LegSource LegSurvey::decide_source(const std::string& type, const std::string& f
                                    ReadingNotes& notes) {
   const bool joints = has_joints();
   warn_of_degrees(notes);
+  if (auto rates = rate_check_.warning()) notes.warnings.push_back(std::move(*rates));
   if (joints_assumed_ && joints) {
     notes.warn("order of the joints in a leg assumed",
                fmt::format("{}: the names '{}' tell the legs alone: their joints are taken as "

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "recordings/legs/joint_rates.hpp"
 #include "recordings/legs/leg_messages.hpp"
 #include "recordings/legs/leg_order.hpp"
 #include "recordings/legs/leg_stream.hpp"
@@ -81,6 +82,7 @@ class LegSurvey {
     return complete_joint_messages_ == 0 && unnamed_joint_messages_ > 0;
   }
   void add_angles(const MessageView& message, Time record_time);
+  void add_rates(const JointReading& joints);
   void warn_of_degrees(ReadingNotes& notes) const;
   std::string lack_of_joints() const;
   std::string lack_of_contacts() const;
@@ -104,7 +106,9 @@ class LegSurvey {
   int joint_messages_ = 0;
   int complete_joint_messages_ = 0;  ///< with all twelve joints
   int unnamed_joint_messages_ = 0;
-  int large_angles_ = 0;            ///< messages with an angle that no joint has in rad
+  int large_angles_ = 0;  ///< messages with an angle that no joint has in rad
+  JointRateCheck rate_check_;
+  bool rates_seen_ = false;
   std::string joint_names_;         ///< recorded, of the first message
   bool joints_of_one_leg_ = false;  ///< of the first message, by their names
   bool joints_assumed_ = false;     ///< the names tell the legs alone

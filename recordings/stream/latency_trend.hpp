@@ -2,14 +2,13 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/time.hpp"
-#include "recordings/median.hpp"
+#include "recordings/stream/series_change.hpp"
 
 namespace aims {
 
@@ -33,42 +32,23 @@ class LatencyTrend {
   std::optional<double> growth(const LatencyTrend& other) const {
     const auto [seconds, apart] = apart_from(other);
     const std::size_t third = apart.size() / 3;
-    if (std::ssize(apart) < 3 * kFewest) return std::nullopt;
-    std::array<Duration, 3> medians{};
-    for (std::size_t i = 0; i < medians.size(); ++i) {
-      const auto begin = apart.begin() + static_cast<std::ptrdiff_t>(i * third);
-      medians[i] =
-          *upper_median(std::vector<Duration>(begin, begin + static_cast<std::ptrdiff_t>(third)));
-    }
+    if (apart.size() < 3 * kFewest) return std::nullopt;
+    const SeriesGrowth growth(medians_of_thirds(apart));
+    if (std::abs(growth.grown) < kLeast || !growth.is_even()) return std::nullopt;
     // From the middle of the first third to that of the last; some seconds may be missing.
     const Time between = seconds[2 * third + third / 2] - seconds[third / 2];
-    const Duration grown = medians[2] - medians[0];
-    const Duration uneven = std::abs(medians[2] - 2 * medians[1] + medians[0]);
-    if (std::abs(grown) < kLeast || 4 * uneven > std::abs(grown)) return std::nullopt;
-    return to_seconds(grown) / static_cast<double>(between);
+    return to_seconds(growth.grown) / static_cast<double>(between);
   }
 
   /// By how much it steps against that of the other topic, once and for good.
   std::optional<Duration> step(const LatencyTrend& other) const {
     const std::vector<Duration> apart = apart_from(other).latencies;
-    if (std::ssize(apart) < 2 * kFewest) return std::nullopt;
-    auto largest = apart.begin();
-    for (auto at = apart.begin() + 1; at != apart.end(); ++at) {
-      const bool inside = at - apart.begin() >= kFewest && apart.end() - at >= kFewest;
-      const bool larger =
-          largest == apart.begin() || std::abs(*at - at[-1]) > std::abs(*largest - largest[-1]);
-      if (inside && larger) largest = at;
+    const auto quarter = [](Duration step) { return step / 4; };
+    const auto leap = largest_leap(apart, kFewest, 0, quarter);
+    if (!leap || std::abs(leap->step()) < kLeast || 10 * leap->strays > apart.size()) {
+      return std::nullopt;
     }
-    if (largest == apart.begin()) return std::nullopt;
-    const std::vector<Duration> before(apart.begin(), largest), behind(largest, apart.end());
-    const Duration first = *upper_median(before), last = *upper_median(behind);
-    const auto strays = [&](const std::vector<Duration>& part, Duration usual) {
-      return std::ranges::count_if(
-          part, [&](Duration each) { return 4 * std::abs(each - usual) > std::abs(last - first); });
-    };
-    const auto odd = strays(before, first) + strays(behind, last);
-    if (std::abs(last - first) < kLeast || 10 * odd > std::ssize(apart)) return std::nullopt;
-    return last - first;
+    return leap->step();
   }
 
  private:
@@ -89,7 +69,7 @@ class LatencyTrend {
     return apart;
   }
 
-  static constexpr std::ptrdiff_t kFewest = 3;      ///< seconds of each third
+  static constexpr std::size_t kFewest = 3;         ///< seconds of each third
   static constexpr Duration kLeast = kSecond / 10;  ///< by which scans and IMU no longer fit
 
   std::vector<std::pair<Time, Duration>> seconds_;

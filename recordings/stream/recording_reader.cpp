@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "core/text.hpp"
+#include "recordings/clouds/repeated_clouds.hpp"
+#include "recordings/legs/joint_rates.hpp"
 #include "recordings/legs/leg_stream.hpp"
 #include "recordings/source/decided_start.hpp"
 #include "recordings/source/rated_source.hpp"
@@ -80,6 +82,7 @@ struct RecordingReader::Impl {
   void note_frame(Role role, const MessageView& view);
   void take(const Channel& channel, const MessageView& view, std::vector<Delivery>& out);
   void watch_frame(const MessageView& view);
+  void watch_repeats(const PointTable& table);
   std::optional<LidarScan> read_scan(const PointTable& table);
   void take_cloud(const MessageView& view, std::vector<Delivery>& out);
   void take_imu(const MessageView& view, std::vector<Delivery>& out);
@@ -107,6 +110,7 @@ struct RecordingReader::Impl {
   RecordingPlan plan;
   RecordingConfig config;
   TurnJoiner turns;  ///< of clouds that are parts of scans
+  RepeatedClouds repeated_clouds;
   LegStream legs;
   ContactDetector contact_detector;
   std::map<std::string, RepeatFilter> repeats;  ///< by topic
@@ -176,6 +180,21 @@ void RecordingReader::Impl::watch_frame(const MessageView& view) {
        WarnedSensor::kLidar});
 }
 
+/// Warns where the LiDAR hangs, once; what the warning counts grows.
+void RecordingReader::Impl::watch_repeats(const PointTable& table) {
+  constexpr const char* kReason = "the LiDAR repeats a cloud";
+  repeated_clouds.add(table);
+  if (!repeated_clouds.found()) return;
+  counts["lidar_repeated_clouds"] = repeated_clouds.repeated();
+  auto& warnings = plan.setup.warnings;
+  auto warning = std::ranges::find(warnings, kReason, &ReadingWarning::reason);
+  if (warning == warnings.end()) {
+    warning = warnings.insert(warning, {kReason, "", WarnedSensor::kLidar});
+  }
+  warning->text = line_text(repeated_clouds_text(
+      plan.setup.topics.lidar, repeated_clouds.repeated(), repeated_clouds.clouds()));
+}
+
 /// The scan of a cloud, or the one that it completes as the last part.
 std::optional<LidarScan> RecordingReader::Impl::read_scan(const PointTable& table) {
   if (plan.cloud.parts.count == 1) return read_cloud(table, plan.cloud, counts);
@@ -191,6 +210,7 @@ void RecordingReader::Impl::take_cloud(const MessageView& view, std::vector<Deli
   if (!table) return malformed(Role::kLidar);
   watch_frame(view);
   table->stamp = stamp_of(Role::kLidar, table->stamp, 0.0);
+  watch_repeats(*table);
   auto read = read_scan(*table);
   if (!read) return;
   auto scan = std::make_shared<LidarScan>(std::move(*read));
@@ -513,7 +533,12 @@ void RecordingReader::Impl::finish(std::vector<Delivery>& out) {
   warn_of_missing(Role::kImu);
   warn_of_missing(Role::kLidar);
   warn_of_missing(Role::kLegs);
-  std::ranges::move(legs.warnings(), std::back_inserter(plan.setup.warnings));
+  auto& warnings = plan.setup.warnings;
+  for (ReadingWarning each : legs.warnings()) {
+    // The start may have shown it already.
+    const auto said = std::ranges::find(warnings, each.reason, &ReadingWarning::reason);
+    if (said == warnings.end() || each.reason != kJointRates) warnings.push_back(std::move(each));
+  }
   const auto repeated = static_cast<int>(bag->summary().repeated_messages);
   if (repeated > 0) counts["recorded_in_two_files"] = repeated;
 }

@@ -102,7 +102,7 @@ class RecordingSurvey {
   /// Of latencies over the stamps seen.
   struct LatencyGrowth {
     Duration growth = 0, span = 0;
-    Duration uneven = 0;  ///< by how much it differs between halves
+    bool even = false;  ///< the same in both halves
 
     double rate() const {  ///< of record times against stamps
       return 1.0 + static_cast<double>(growth) / static_cast<double>(span);

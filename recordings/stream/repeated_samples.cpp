@@ -26,14 +26,16 @@ void append(const MessageView& message, std::string_view path, std::vector<doubl
 
 std::vector<double> sample_numbers(const MessageView& message, const Channel& channel) {
   std::vector<double> numbers;
-  if (channel.state == nullptr) return numbers;
-  const StateLayout& state = *channel.state;
+  const bool has_imu =
+      channel.state == nullptr ? channel.is(Role::kImu) : !channel.state->imu.empty();
   EventCounts ignored;
-  if (const auto sample = imu_at(message, 0, ignored); sample && !state.imu.empty()) {
+  if (const auto sample = has_imu ? imu_at(message, 0, ignored) : std::nullopt) {
     for (const Eigen::Vector3d& each : {sample->angular_velocity, sample->specific_force}) {
       numbers.insert(numbers.end(), each.begin(), each.end());
     }
   }
+  if (channel.state == nullptr) return numbers;
+  const StateLayout& state = *channel.state;
   for (const auto path : {state.angles, state.rates, state.feet, state.contacts}) {
     append(message, path, numbers);
   }

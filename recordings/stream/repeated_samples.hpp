@@ -11,8 +11,8 @@
 
 namespace aims {
 
-/// The numbers that tell a new sample from one that was sent again: IMU, joints, feet and loads of
-/// a robot's state. Empty for other messages.
+/// The numbers that tell a new sample from one that was sent again: those of an IMU; IMU, joints,
+/// feet and loads of a robot's state. Empty for other messages.
 std::vector<double> sample_numbers(const MessageView& message, const Channel& channel);
 
 /// Finds out whether a driver sends each sample several times under new stamps, as Unitree's

@@ -1,78 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What stamps and record times say of the clocks, and of samples that are sent again.
+// What stamps and record times say of the clocks, and of samples that are sent again; what that
+// means for the arrivals.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
 #include <ranges>
-#include <set>
 #include <span>
 #include <utility>
 
 #include "recordings/clouds/scan_period.hpp"
-#include "recordings/clouds/stamp_steps.hpp"
 #include "recordings/median.hpp"
 #include "recordings/stream/record_clock.hpp"
 #include "recordings/stream/recording_survey.hpp"
+#include "recordings/stream/survey_latencies.hpp"
 
 namespace aims {
 namespace {
 
 /// Larger differences mean that recorder and sensors use different clocks.
 constexpr Duration kMaxClockDifference = 5 * kSecond;
-/// Between the latencies of sensors on one clock.
-constexpr Duration kMaxLatencyDifference = kSecond / 4;
-/// A step back of stamps that is no exchange of neighbours.
-constexpr Duration kMaxDisorder = kSecond / 5;
 constexpr Duration kLongestStep = 100'000 * kSecond;  ///< a day, as of a wrong date
-constexpr Duration kMaxBetween = kSecond;             ///< of the samples before and after a step
-constexpr Duration kMaxOwnLatency = kSecond;          ///< of a sensor on the recorder's clock
-constexpr std::size_t kFirst = 20;  ///< messages whose latency is that before a step
-
-bool stamps_stand(const std::vector<Time>& stamps) {
-  std::size_t steps = 0;
-  for (std::size_t i = 1; i < stamps.size(); ++i) steps += stamps[i] != stamps[i - 1] ? 1 : 0;
-  return hardly_advance(steps, stamps.size());
-}
-
-/// The latency that a tenth of the messages do not reach: others were delayed.
-Duration early_latency(std::vector<Duration> latencies) {
-  const auto at = latencies.begin() + static_cast<std::ptrdiff_t>(latencies.size() / 10);
-  std::ranges::nth_element(latencies, at);
-  return *at;
-}
-
-/// Whether nearly all are much the same.
-bool is_steady(const std::vector<Duration>& latencies) {
-  const Duration usual = upper_median(latencies).value_or(0);
-  const auto odd = std::ranges::count_if(latencies, [usual](Duration latency) {
-    return std::abs(latency - usual) > kMaxLatencyDifference / 2;
-  });
-  return static_cast<std::size_t>(odd) * 20 < latencies.size();
-}
-
-/// "recorded 0.002 s after its stamps".
-std::string recorded_text(Duration latency) {
-  return fmt::format("recorded {:.3f} s {} its stamps", std::abs(to_seconds(latency)),
-                     latency < 0 ? "before" : "after");
-}
-
-/// Which of two clocks the record times contradict.
-std::string odd_clock(const std::string& one, Duration latency, const std::string& other,
-                      Duration other_latency) {
-  const bool odd = std::abs(latency) > kMaxOwnLatency;
-  const bool other_odd = std::abs(other_latency) > kMaxOwnLatency;
-  if (odd && other_odd) return "neither clock is the recorder's";
-  if (!odd && !other_odd) return "their clocks differ";
-  return fmt::format("the clock of {} is off", odd ? one : other);
-}
-
-/// Of clocks that differ by as much as GPS from UTC.
-std::string_view gps_text(double ahead) {
-  constexpr double kGps = 18.0, kTolerance = 0.5;  // [s]
-  return std::abs(std::abs(ahead) - kGps) < kTolerance ? " (GPS is 18 s ahead of UTC)" : "";
-}
+constexpr std::size_t kFewestOfBurst = 20;            ///< messages
 
 /// Where configured delays differ by more, arrivals move with the stamps: estimators sort what
 /// arrives within 50 ms, and would drop what is later.
@@ -97,49 +46,6 @@ std::optional<Duration> RecordingSurvey::latency_without_scan(Role role,
     *latency -= plan.cloud.period;
   }
   return latency;
-}
-
-/// By how much latencies grow; nothing of few messages.
-std::optional<RecordingSurvey::LatencyGrowth> RecordingSurvey::growth_of(const Seen& each) {
-  constexpr std::size_t kLeast = 10;  // messages of each third
-  const std::size_t third = each.stamps.size() / 3;
-  if (each.unstamped || third < kLeast || stamps_stand(each.stamps)) return std::nullopt;
-  std::array<Duration, 3> latency{}, stamp{};
-  for (std::size_t i = 0; i < latency.size(); ++i) {
-    const auto part = [&](const std::vector<std::int64_t>& all) {
-      const auto begin = all.begin() + static_cast<std::ptrdiff_t>(i * third);
-      return *upper_median(
-          std::vector<std::int64_t>(begin, begin + static_cast<std::ptrdiff_t>(third)));
-    };
-    latency[i] = part(each.latencies);
-    stamp[i] = part(each.stamps);
-  }
-  const LatencyGrowth found = {latency[2] - latency[0], stamp[2] - stamp[0],
-                               std::abs(latency[2] - 2 * latency[1] + latency[0])};
-  return found.span > 0 && found.rate() > 0.0 ? std::optional(found) : std::nullopt;
-}
-
-/// Of the topic with the longest part seen, since of dense ones it is short; the others agree.
-std::optional<double> RecordingSurvey::record_rate() const {
-  std::map<std::string, double> rates;  // by topic
-  LatencyGrowth longest;
-  for (std::size_t i = 0; i < kRoleCount; ++i) {
-    const std::string& topic = topic_of(topics_, static_cast<Role>(i));
-    if (topic.empty() || seen_[i].stamps.empty()) continue;
-    const auto growth = growth_of(seen_[i]);
-    if (!growth) return std::nullopt;
-    rates[topic] = growth->rate();
-    if (growth->span > longest.span) longest = *growth;
-  }
-  if (rates.size() < 2 || std::abs(longest.growth) < kMaxLatencyDifference ||
-      4 * longest.uneven > std::abs(longest.growth)) {
-    return std::nullopt;
-  }
-  const double best = longest.rate();
-  const bool agree = std::ranges::all_of(rates | std::views::values, [best](double each) {
-    return 4.0 * std::abs(each - best) < std::abs(best - 1.0);
-  });
-  return agree ? std::optional(best) : std::nullopt;
 }
 
 /// Record time minus the stamp that the configured delay corrects.
@@ -208,116 +114,10 @@ void RecordingSurvey::decide_waits(RecordingPlan& plan) const {
   plan.arrival_shift -= from_seconds(largest);
 }
 
-/// Where the recorder's clock was set back: stamps go backwards in the order of the recording, and
-/// from some stamp on latencies are shorter than those of the earliest stamps.
-std::optional<RecordingSurvey::ClockStep> RecordingSurvey::clock_step_of(const Seen& each) {
-  std::vector<std::pair<Time, Duration>> by_stamp;
-  int backwards = 0;
-  bool swapped = false;
-  for (std::size_t i = 0; i < each.stamps.size(); ++i) {
-    by_stamp.emplace_back(each.stamps[i], each.latencies[i]);
-    if (i == 0 || each.stamps[i] >= each.stamps[i - 1] - kMaxDisorder) continue;
-    // A step of more than the recording puts all that follows it in front, in one piece.
-    const Duration apart = each.stamps.front() - each.stamps.back();
-    swapped = ++backwards == 1 && apart > 0 && apart < kMaxBetween;
-  }
-  if (backwards < 2 && !swapped) return std::nullopt;
-  std::ranges::stable_sort(by_stamp, {}, &std::pair<Time, Duration>::first);
-  std::vector<Duration> before, after;
-  for (std::size_t i = 0; i < std::min(by_stamp.size(), kFirst); ++i) {
-    before.push_back(by_stamp[i].second);
-  }
-  const Duration usual = early_latency(before);
-  std::optional<Time> stamp;
-  for (const auto& [at, latency] : by_stamp) {
-    if (latency >= usual - kMaxDisorder / 2) continue;
-    if (!stamp) stamp = at;
-    after.push_back(latency);
-  }
-  if (!stamp) return std::nullopt;
-  return ClockStep{*stamp, usual - early_latency(std::move(after))};
-}
-
-/// Record time minus stamp of messages without delay, before the recorder's clock was set back.
-Duration RecordingSurvey::latency_of(const Seen& each, const std::optional<ClockStep>& step) {
-  if (!step) return early_latency(each.latencies);
-  std::vector<Duration> before;
-  for (std::size_t i = 0; i < each.stamps.size(); ++i) {
-    // What was on its way at the step is recorded after it.
-    if (each.stamps[i] < step->stamp - kMaxDisorder) before.push_back(each.latencies[i]);
-  }
-  return before.empty() ? early_latency(each.latencies) + step->back
-                        : early_latency(std::move(before));
-}
-
-/// Where latencies change once for all: stamps or record times leap there.
-std::optional<RecordingSurvey::Leap> RecordingSurvey::leap_of(const Seen& each) {
-  constexpr std::size_t kLeast = 5;  // messages before and behind it
-  const auto& latencies = each.latencies;
-  if (latencies.size() < 2 * kLeast) return std::nullopt;
-  Leap leap;
-  Duration largest = kMaxLatencyDifference;
-  for (std::size_t i = kLeast; i + kLeast <= latencies.size(); ++i) {
-    const Duration step = std::abs(latencies[i] - latencies[i - 1]);
-    if (step <= largest) continue;
-    largest = step;
-    leap.at = i;
-  }
-  if (leap.at == 0) return std::nullopt;
-  const auto middle = latencies.begin() + static_cast<std::ptrdiff_t>(leap.at);
-  const Duration before = *upper_median(std::vector<Duration>(latencies.begin(), middle));
-  const Duration behind = *upper_median(std::vector<Duration>(middle, latencies.end()));
-  leap.stamps = before - behind;
-  leap.recorded = each.stamps[leap.at] + latencies[leap.at];
-  const auto strays = [](auto begin, auto end, Duration usual) {
-    return std::count_if(begin, end, [usual](Duration latency) {
-      return std::abs(latency - usual) > kMaxLatencyDifference / 2;
-    });
-  };
-  const auto odd =
-      strays(latencies.begin(), middle, before) + strays(middle, latencies.end(), behind);
-  const bool lasts = static_cast<std::size_t>(odd) * 10 < latencies.size();
-  if (!lasts || std::abs(leap.stamps) < kMaxLatencyDifference) return std::nullopt;
-  return leap;
-}
-
-/// Whether another topic goes on there as before: then it is no leap of the recorder's clock.
-bool RecordingSurvey::leaps_alone(Role role, const Leap& leap) const {
-  const std::string& topic = topic_of(topics_, role);
-  for (std::size_t i = 0; i < kRoleCount; ++i) {
-    const Seen& other = seen_[i];
-    const std::string& name = topic_of(topics_, static_cast<Role>(i));
-    if (name == topic || name.empty() || other.unstamped || stamps_stand(other.stamps)) continue;
-    bool before = false, behind = false;
-    for (std::size_t k = 0; k < other.stamps.size(); ++k) {
-      const Duration after = other.stamps[k] + other.latencies[k] - leap.recorded;
-      before = before || after < 0;
-      behind = behind || after > kMaxLatencyDifference;
-    }
-    if (before && behind && is_steady(other.latencies)) return true;
-  }
-  return false;
-}
-
-/// The leap of the stamps of a topic, of which it warns.
-std::optional<RecordingSurvey::Leap> RecordingSurvey::decide_leap(Role role, RecordingPlan& plan) {
-  const auto leap = leap_of(seen(role));
-  if (!leap || seen(role).unstamped || !leaps_alone(role, *leap)) return std::nullopt;
-  const std::string& topic = topic_of(topics_, role);
-  const Time first = seen(role).stamps.front() + seen(role).latencies.front();
-  plan.leaps[static_cast<std::size_t>(role)] = true;
-  notes_.warn(fmt::format("stamps of {} leap", topic),
-              fmt::format("{}: stamps leap by {:.3f} s, {:.1f} s after its first message, while "
-                          "record times and other topics do not: what is before and behind it "
-                          "does not fit together",
-                          topic, to_seconds(leap->stamps), to_seconds(leap->recorded - first)));
-  return leap;
-}
-
 /// By how much longer the first message of a burst waits to be recorded than the last one.
 Duration RecordingSurvey::burst_of(Role role) const {
   std::vector<Duration> delays = seen(role).delays;
-  if (delays.size() < kFirst) return 0;
+  if (delays.size() < kFewestOfBurst) return 0;
   std::ranges::sort(delays);
   const std::size_t few = delays.size() / 20;
   const Duration burst = delays[delays.size() - 1 - few] - delays[few];
@@ -473,87 +273,6 @@ void RecordingSurvey::decide_begin(RecordingPlan& plan) {
       fmt::format("scans begin {:.1f} s after the IMU: the estimate begins {:.0f} s "
                   "before the first one",
                   to_seconds(alone), to_seconds(kStanding)));
-}
-
-/// Warns of a truth whose clock is not that of the sensors.
-void RecordingSurvey::warn_of_true_clock(const RecordingPlan& plan) {
-  constexpr Duration kMost = kSecond;  // of a motion capture's computers and links
-  const auto& truth = plan.latency[static_cast<std::size_t>(Role::kTruth)];
-  const auto& imu = plan.latency[static_cast<std::size_t>(Role::kImu)];
-  const Role reference = imu ? Role::kImu : Role::kLidar;
-  const auto sensors = corrected_latency(reference, plan);
-  if (!truth || !sensors || std::abs(*truth - *sensors) < kMost) return;
-  const double ahead = to_seconds(*sensors - *truth);
-  const std::string& other = imu ? topics_.imu : topics_.lidar;
-  const auto lidar = corrected_latency(Role::kLidar, plan);
-  const bool imu_alone = imu && lidar && std::abs(*truth - *lidar) < kMost;
-  const std::string remedy =
-      imu_alone ? fmt::format("the LiDAR agrees with the truth: set recording.imu_delay={:.3f}",
-                              delay_of(config_, Role::kImu) - ahead)
-                : fmt::format("score with aims score --time-offset={:.3f}", ahead);
-  notes_.warn(
-      "truth and sensors have different clocks",
-      fmt::format("by the record times the truth is stamped {:.3f} s {} the sensors: scores "
-                  "compare other instants, or none. {} is {}, {} is {}: {}{}; {}",
-                  std::abs(ahead), ahead > 0.0 ? "ahead of" : "behind", topics_.truth,
-                  recorded_text(*truth), other, recorded_text(*sensors),
-                  odd_clock(topics_.truth, *truth, other, *sensors), gps_text(ahead), remedy));
-}
-
-/// By how much the stamps of other topics are behind those of the reference, by their record times.
-std::map<Role, Duration> RecordingSurvey::behind(const RecordingPlan& plan,
-                                                 const std::string& reference,
-                                                 Duration latency) const {
-  std::map<Role, Duration> result;
-  for (std::size_t i = 0; i < kRoleCount; ++i) {
-    const Role role = static_cast<Role>(i);
-    const std::string& topic = topic_of(topics_, role);
-    const auto own = latency_without_scan(role, plan);
-    if (!own || role == Role::kTruth || topic == reference) continue;
-    if (plan.leaps[i]) continue;  // no delay would correct it
-    result[role] = *own + from_seconds(delay_of(config_, role)) - latency;
-  }
-  return result;
-}
-
-/// Warns of an IMU on another clock than all other topics, which agree; whether it does.
-bool RecordingSurvey::warn_of_imu_clock(const std::map<Role, Duration>& behind,
-                                        const std::string& reference) {
-  std::set<std::string> others;
-  for (const auto& [role, each] : behind) others.insert(topic_of(topics_, role));
-  if (reference != topics_.imu || others.size() < 2) return false;
-  Duration least = behind.begin()->second, most = least;
-  for (const auto& [role, each] : behind) {
-    least = std::min(least, each);
-    most = std::max(most, each);
-  }
-  const Duration middle = least + (most - least) / 2;
-  if (std::abs(middle) < kMaxLatencyDifference || most - least > kMaxLatencyDifference)
-    return false;
-  notes_.warn(
-      fmt::format("clocks of {} and all other topics differ", reference),
-      fmt::format("{}: stamps are {:.3f} s {} those of {}, which agree: set "
-                  "recording.imu_delay={:.3f} if its clock differs",
-                  reference, std::abs(to_seconds(middle)), middle > 0 ? "ahead of" : "behind",
-                  fmt::join(others, ", "), delay_of(config_, Role::kImu) + to_seconds(middle)));
-  return true;
-}
-
-/// Warns of topics whose clock is not that of the reference.
-void RecordingSurvey::warn_of_clocks(const RecordingPlan& plan, const std::string& reference,
-                                     Duration latency) {
-  const auto apart = behind(plan, reference, latency);
-  if (warn_of_imu_clock(apart, reference)) return;
-  for (const auto& [role, behind] : apart) {
-    if (std::abs(behind) < kMaxLatencyDifference) continue;
-    const std::string& topic = topic_of(topics_, role);
-    notes_.warn(fmt::format("clocks of {} and {} differ", topic, reference),
-                fmt::format("{}: stamps are {:.3f} s {} those of other topics: set "
-                            "recording.{}_delay={:.3f} if their clocks differ",
-                            topic, std::abs(to_seconds(behind)), behind > 0 ? "behind" : "ahead of",
-                            role == Role::kLidar ? "lidar" : "leg",
-                            delay_of(config_, role) - to_seconds(behind)));
-  }
 }
 
 }  // namespace aims

@@ -66,7 +66,7 @@ const std::map<std::string, std::vector<std::string>> kAllowed = {
       "recordings/event_counts.hpp", "recordings/reading_notes.hpp"}},
     {"recordings/legs",
      {"core/", "recordings/messages/", "recordings/legs/", "recordings/recording_config.hpp",
-      "recordings/event_counts.hpp", "recordings/reading_notes.hpp"}},
+      "recordings/event_counts.hpp", "recordings/reading_notes.hpp", "recordings/median.hpp"}},
     {"recordings/topics",
      {"core/", "recordings/bag/", "recordings/messages/", "recordings/topics/",
       "recordings/recording_config.hpp"}},

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/estimate/dataset_profile.hpp"
+#include "core/files/atomic_file.hpp"
 #include "core/files/tum.hpp"
 #include "core/text.hpp"
 #include "tests/bench/datasets/data_sets.hpp"
@@ -380,6 +381,10 @@ TEST_F(Benchmark, NotesNameAllSequencesOfWhichTheyAreAndTheScoreGoesFirst) {
                            "park: the truth is taken to be of the IMU"}) {
     EXPECT_NE(run.output.find(note), std::string::npos) << note << "\n" << run.output;
   }
+  const auto suite = read_file(folder_.path() / "out" / "suite.md");
+  ASSERT_TRUE(suite);
+  const std::size_t first = suite->find("\n## ");
+  EXPECT_EQ(suite->find("\n## M_end"), first) << *suite;
 }
 
 TEST_F(Benchmark, LegKiloHasTheLegsOfAHighState) {

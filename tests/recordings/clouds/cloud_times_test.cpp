@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // When points fired, where the clouds do not say or say it otherwise.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -184,7 +185,8 @@ struct Turns {
 };
 
 /// Forty clouds of a LiDAR of 10 Hz.
-Recording read_turns(const std::filesystem::path& bag, const Turns& turns) {
+Recording read_turns(const std::filesystem::path& bag, const Turns& turns,
+                     const RecordingConfig& config = {}) {
   std::filesystem::remove(bag);
   RobotRecording robot(bag);
   robot.add_transforms(kMounted);
@@ -204,7 +206,7 @@ Recording read_turns(const std::filesystem::path& bag, const Turns& turns) {
     robot.add_cloud(RawCloud::of(stamp, points), stamp + 105 * kMillisecond);
   }
   robot.close();
-  return test::read_recording(bag);
+  return test::read_recording(bag, config);
 }
 
 TEST_F(CloudTimes, ALidarThatIsBlindBehindMissesNoClouds) {
@@ -219,12 +221,43 @@ TEST_F(CloudTimes, ALidarThatIsBlindBehindMissesNoClouds) {
 
 TEST_F(CloudTimes, PointTimesOfAnotherScaleAreNamed) {
   const Recording twice = read_turns(bag(), {.scale = 2.0});
-  EXPECT_TRUE(twice.noted("'time' spans 0.199 s, but a cloud comes every 0.1 s"));
+  EXPECT_TRUE(
+      twice.noted("a turn takes 0.2 s, but by the azimuths of clouds that come every 0.1 s"));
   for (const double scale : {0.5, 0.1}) {
     const Recording less = read_turns(bag(), {.scale = scale});
     EXPECT_TRUE(less.noted(", but clouds come every 0.1 s: were those between them left out"));
     EXPECT_FALSE(less.noted("are missing")) << scale;
   }
+}
+
+TEST_F(CloudTimes, PointTimesThatTheAzimuthsContradictAreNamed) {
+  for (const auto& [from, to] : {std::pair(0.0, 1.0), {0.25, 0.6}, {0.1, 0.7}}) {
+    for (const int lost : {0, 4}) {
+      for (const double scale : {0.7, 1.0, 1.2, 1.5}) {
+        const Recording read =
+            read_turns(bag(), {.from = from, .to = to, .scale = scale, .lost = lost});
+        EXPECT_EQ(read.noted("the times are perhaps " + fmt::format("{:.2g}", scale) +
+                             " times the true ones"),
+                  scale != 1.0)
+            << from << ' ' << lost << ' ' << scale;
+        EXPECT_FALSE(read.noted("run backwards"));
+      }
+    }
+  }
+}
+
+TEST_F(CloudTimes, PointTimesThatRunBackwardsAreNamedAndAzimuthsMayServe) {
+  const Turns backwards = {.scale = -1.0};
+  EXPECT_TRUE(read_turns(bag(), backwards).noted("'time' falls from point to point of each ring"));
+  RecordingConfig config;
+  config.point_time_unit = PointTimeUnit::kNone;
+  config.lidar_clockwise = false;
+  const Recording by_azimuth = read_turns(bag(), backwards, config);
+  EXPECT_TRUE(by_azimuth.noted("times of points do not serve: derived from azimuth"));
+  EXPECT_FALSE(by_azimuth.noted("falls from point to point"));
+  const auto scans = test::scans_of(by_azimuth.deliveries);
+  EXPECT_EQ(scans.at(2)->stamp, kStart + 200 * kMillisecond);
+  EXPECT_NEAR(scans.at(2)->points.at(50).time_offset_ns, 25e6, 1e3);
 }
 
 TEST_F(CloudTimes, CloudsThatAreLeftOutOnPurposeAreNotLost) {
@@ -273,7 +306,9 @@ Recording read_counted(
   robot.add_imu(kStart, 120);
   for (int k = 0; k < 20; ++k) {
     const Time stamp = kStart + k * 100 * kMillisecond;
-    RawCloud cloud = RawCloud::of(stamp, std::vector<std::array<float, 4>>(200, {4, 2, 1, 0}));
+    const float noise = 1e-3F * static_cast<float>(k % 7);
+    const std::array<float, 4> point = {4, 2 + noise, 1, 0};
+    RawCloud cloud = RawCloud::of(stamp, std::vector<std::array<float, 4>>(200, point));
     cloud.fields.back().type = 6;
     for (std::size_t i = 0; i < 200; ++i) {
       const auto after = static_cast<std::uint32_t>(i * 450'000);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "recordings/inspection/bag_info.hpp"
 #include "recordings/messages/message_encoding.hpp"
 #include "recordings/messages/message_types.hpp"
 #include "recordings/stream/record_clock.hpp"
@@ -202,6 +203,68 @@ TEST_F(RecordedClocks, AClockThatRunsAtAnotherRateIsAWarning) {
     const Recording read = test::read_recording(bag(), {});
     EXPECT_EQ(warns(read.setup, "its stamps run 1 % faster than those of /points"), rate > 1.0);
     EXPECT_EQ(warns(read.setup, "its stamps run 1 % slower than those of /points"), rate < 1.0);
+    const auto info = bag_info(bag(), {}, {});
+    ASSERT_TRUE(info);
+    const auto says = [&](const std::string& part) {
+      return std::ranges::any_of(info->warnings, [&](const std::string& each) {
+        return each.find(part) != std::string::npos;
+      });
+    };
+    EXPECT_EQ(says("its stamps run 1 % faster than those of /points"), rate > 1.0);
+    EXPECT_EQ(says("its stamps run 1 % slower than those of /points"), rate < 1.0);
+  }
+}
+
+TEST_F(RecordedClocks, SamplesOfAnImuThatAreSentAgainCountOnceAndInfoSaysTheSame) {
+  for (const int times : {1, 4}) {
+    std::filesystem::remove(bag());
+    RobotRecording robot(bag());
+    robot.add_transforms(kMounted);
+    robot.add_clouds(kStart, 60);
+    for (int k = 0; k < 2400; ++k) {
+      ImuSample sample;
+      sample.stamp = kStart + k * 5 * kMillisecond / 2;
+      const double seed = k / times;
+      sample.specific_force = {0.01 * std::sin(seed), 0.01 * std::cos(3.0 * seed), 9.81};
+      robot.add("/imu", imu_type(), sample.stamp, imu_message({0, sample.stamp, "imu"}, sample));
+    }
+    robot.close();
+    const Recording read = test::read_recording(bag(), {});
+    EXPECT_EQ(read.noted("/imu: each sample is sent 4.0 times, and new every 10.0 ms"), times > 1);
+    EXPECT_EQ(std::ssize(test::imu_of(read.deliveries)), 2400 / times);
+    const auto info = bag_info(bag(), {}, {});
+    ASSERT_TRUE(info);
+    ASSERT_EQ(info->imus.size(), 1U);
+    EXPECT_EQ(info->imus[0].new_rate_hz.has_value(), times > 1);
+  }
+}
+
+TEST_F(RecordedClocks, StampsThatAreAllTheSameAreNamedByInfo) {
+  for (const Time stamp : {kStart, Time{0}}) {
+    std::filesystem::remove(bag());
+    RobotRecording robot(bag());
+    robot.add_transforms(kMounted);
+    robot.add_clouds(kStart, 60);
+    for (int k = 0; k < 600; ++k) {
+      ImuSample sample;
+      sample.stamp = stamp;
+      sample.specific_force.z() = 9.81;
+      robot.add("/imu", imu_type(), kStart + k * 10 * kMillisecond,
+                imu_message({0, sample.stamp, "imu"}, sample));
+    }
+    robot.close();
+    const auto info = bag_info(bag(), {}, {});
+    ASSERT_TRUE(info);
+    const std::string same = stamp == 0 ? "zero" : "the same";
+    std::string others;
+    for (const std::string& each : info->warnings) others += each + "\n";
+    const std::string text =
+        "/imu: all stamps are " + same + "; record times are used: set the stamps in the driver\n";
+    EXPECT_NE(others.find(text), std::string::npos) << others;
+    for (const char* wrong : {"not static", "stamps repeat", "clocks may differ", "Hz;"}) {
+      EXPECT_EQ(others.find(wrong), std::string::npos) << others;
+    }
+    EXPECT_NEAR(info->find("/imu")->rate_hz.value_or(0.0), 100.0, 0.1);
   }
 }
 

@@ -6,7 +6,9 @@
 #include <numbers>
 
 #include "core/leg_kinematics.hpp"
+#include "recordings/inspection/bag_info.hpp"
 #include "recordings/legs/contact_detector.hpp"
+#include "recordings/legs/joint_rates.hpp"
 #include "recordings/messages/message_types.hpp"
 #include "tests/recordings/stream/recorded_deliveries.hpp"
 #include "tests/recordings/stream/recorded_trot.hpp"
@@ -127,6 +129,30 @@ TEST_F(RecordedTrot, AnglesInDegreesAreNamedAndConverted) {
   EXPECT_FALSE(right.noted("are they in degrees?"));
   EXPECT_NEAR(speed(right), test::Trot::kSpeed, 0.02);
   EXPECT_FALSE(read({}).noted("are they in degrees?"));
+}
+
+TEST_F(RecordedTrot, RatesThatContradictTheAnglesAreNamedOnceAndByInfo) {
+  const auto is_rates = [](const ReadingWarning& each) { return each.reason == kJointRates; };
+  for (const auto& [scale, cause] :
+       {std::pair(180.0 / std::numbers::pi, "the rates are in deg/s beside angles in rad"),
+        {-1.0, "the rates have the opposite sign"},
+        {9.1, "as those of motors before their gears"},
+        {1.0, ""},
+        {0.8, ""}}) {
+    const std::string part = cause;
+    const Recording found = read({.rate_scale = scale});
+    EXPECT_EQ(std::ranges::count_if(found.setup.warnings, is_rates), part.empty() ? 0 : 1) << scale;
+    EXPECT_TRUE(part.empty() || found.noted(part)) << scale;
+    RecordingConfig config;
+    config.topics.lidar = "none";
+    config.topics.contacts = "/foot_forces";
+    const auto info = bag_info(write({.rate_scale = scale}), config, {});
+    ASSERT_TRUE(info);
+    const auto says = std::ranges::any_of(info->notes, [](const std::string& each) {
+      return each.find("what their angles change by") != std::string::npos;
+    });
+    EXPECT_EQ(says, !part.empty()) << scale;
+  }
 }
 
 TEST_F(RecordedTrot, LengthsOfTheLegsThatNothingStatesAreAWarning) {

@@ -21,7 +21,8 @@ struct TrotOptions {
   bool named = true;
   bool numbered = false;  ///< the names are "leg0_joint0", ...
   bool rates = true;
-  double unit = 1.0;  ///< of the angles, in rad
+  double unit = 1.0;        ///< of the angles, in rad
+  double rate_scale = 1.0;  ///< of the rates beside them
   std::vector<int> legs = {0, 1, 2, 3};
   std::array<int, kLegCount> feet = {0, 1, 2, 3};
   bool forces = true;
@@ -59,7 +60,7 @@ inline MessageBytes trot_joints(Time stamp, const Trot& trot, double time,
                         kParts[static_cast<std::size_t>(part)]);
       }
       position.push_back(q[3 * leg + part] / options.unit);
-      if (options.rates) velocity.push_back(dq[3 * leg + part] / options.unit);
+      if (options.rates) velocity.push_back(options.rate_scale * dq[3 * leg + part] / options.unit);
       const bool bears = part == 2 && trot.contact(time)[static_cast<std::size_t>(leg)];
       effort.push_back(bears ? -11.0 : 0.4);
     }

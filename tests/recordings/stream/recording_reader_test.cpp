@@ -3,12 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <tuple>
 
+#include "recordings/inspection/bag_check.hpp"
+#include "recordings/inspection/bag_info.hpp"
 #include "recordings/messages/message_types.hpp"
 #include "tests/recordings/stream/recorded_deliveries.hpp"
 #include "tests/recordings/stream/robot_recording.hpp"
@@ -840,6 +844,51 @@ Recording read_walk(const std::filesystem::path& bag, double standing, double tu
   robot.add_clouds(kStart, 20);
   robot.close();
   return test::read_recording(bag);
+}
+
+/// Another one for each seed.
+RawCloud cloud_of(Time stamp, int seed) {
+  std::vector<std::array<float, 4>> points;
+  for (int i = 0; i < 50; ++i) {
+    const auto place = static_cast<float>(i);
+    points.push_back({4.0F, place, 0.01F * static_cast<float>(seed), 0.002F * place});
+  }
+  return RawCloud::of(stamp, points);
+}
+
+TEST_F(RecordingReaderTest, ALidarThatHangsIsNamed) {
+  // Forty clouds, each sent so many times, the one at `hangs` for the rest.
+  const auto write = [&](int hangs, int times) {
+    std::filesystem::remove(bag());
+    RobotRecording robot(bag());
+    robot.add_transforms(kMounted);
+    robot.add_imu(kStart, 210);
+    for (int k = 0; k < 40; ++k) {
+      const Time stamp = kStart + k * 100 * kMillisecond;
+      robot.add_cloud(cloud_of(stamp, std::min(k / times, hangs)), stamp + 100 * kMillisecond);
+    }
+    robot.close();
+  };
+  const auto says = [](const BagInfo& info, const std::string& part) {
+    return std::ranges::any_of(info.warnings, [&](const std::string& each) {
+      return each.find(part) != std::string::npos;
+    });
+  };
+  for (const auto& [hangs, times, repeated] :
+       {std::tuple(100, 1, 0), {35, 1, 0}, {20, 1, 19}, {100, 2, 20}}) {
+    write(hangs, times);
+    const Recording read = test::read_recording(bag());
+    const std::string text =
+        "/points: " + std::to_string(repeated) + " of 40 clouds are the cloud before them";
+    EXPECT_EQ(warns(read.setup, text), repeated > 0) << hangs;
+    EXPECT_EQ(warns(read.setup, "hangs"), repeated > 0) << hangs;
+    const auto info = bag_info(bag(), {}, {});
+    ASSERT_TRUE(info);
+    EXPECT_EQ(says(*info, text), repeated > 0) << hangs;
+    const auto checks = check_bag(*info);
+    EXPECT_EQ(std::ranges::count(checks, "clouds that are new", &RequirementCheck::requirement) > 0,
+              repeated > 0);
+  }
 }
 
 TEST_F(RecordingReaderTest, ARobotThatDoesNotStandAtTheStartIsAWarning) {
