@@ -37,8 +37,11 @@ std::optional<LiveMessage> Inbox::pop() {
   while (!messages_.empty()) {
     LiveMessage message = std::move(messages_.front());
     messages_.pop_front();
-    const bool replaced = std::ranges::any_of(
-        messages_, [&](const auto& waiting) { return replaces(waiting, message); });
+    // Small ones are never replaced: a long queue of them is not searched, which would lengthen it.
+    const bool replaced = message.data.size() >= kLargeSize &&
+                          std::ranges::any_of(messages_, [&](const auto& waiting) {
+                            return replaces(waiting, message);
+                          });
     if (!replaced) return message;
     ++dropped_;
   }

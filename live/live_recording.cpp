@@ -177,6 +177,7 @@ class Gathering {
     auto reader = open_live(std::move(source), options_.config);
     if (!reader) return reader;
     if (auto ok = options_.check_setup(reader->setup()); !ok) return tl::unexpected(ok.error());
+    if (const std::string few = few_messages(live); !few.empty()) return failure(few);
     // A record has each topic to its end: the truth too, which the estimate does not read. The next
     // estimate needs fixed transforms, which may be sent but once.
     for (const std::string& topic : subscribed_) {
@@ -208,6 +209,21 @@ class Gathering {
         "no messages yet, though there are publishers of {} topics: is their clock set? DDS "
         "drops what is sent from 2038 on; with --source-time aims_play alone is heard",
         subscribed_.size());
+  }
+
+  /// Which topic has come for so short a time that its period, unit or clock cannot be told, as the
+  /// first cloud of a driver, which is part of a turn; empty: none.
+  std::string few_messages(const LiveSource& live) const {
+    std::set<std::string> seen;
+    for (const LiveMessage& message : *messages_) {
+      const std::string& topic = message.connection->topic;
+      if (lasts(message) || !live.selects(topic) || !seen.insert(topic).second) continue;
+      const Duration heard = messages_->back().arrival - message.arrival;
+      if (heard < options_.settle) {
+        return fmt::format("{:.1f} s of messages of {} so far", to_seconds(heard), topic);
+      }
+    }
+    return {};
   }
 
   /// Waits for messages. Clouds may wait no longer than `max_wait` once none is waiting, at the

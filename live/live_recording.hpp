@@ -20,7 +20,7 @@ using LiveTransforms = std::map<std::string, LiveMessage>;
 
 struct LiveRecordingOptions {
   RecordingConfig config;
-  Duration settle = 3 * kSecond;     ///< gathered before topics, units and extrinsics are decided
+  Duration settle = 3 * kSecond;     ///< gathered of each topic before units and so on are decided
   double patience = 0.0;             ///< timeout without the needed topics [s]; 0: none
   Duration max_wait = kSecond / 20;  ///< of a cloud, once the estimator has caught up
   LiveSource::Observer observer;     ///< sees all messages of the gathered topics; none: nobody

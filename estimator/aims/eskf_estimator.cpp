@@ -125,6 +125,12 @@ void EskfEstimator::report_pose(Time stamp) {
   last_pose_ = stamp;
 }
 
+/// Of a measurement before the belief: from before its start, or of a silence that the IMU alone
+/// has bridged, as when legs and scans wait longer than it.
+void EskfEstimator::count_behind(const char* sensor, Time stamp) {
+  ++result_.counts[std::string(sensor) + (stamp < begin_ ? ".before_start" : ".after_prediction")];
+}
+
 /// While neither legs nor scans arrive, IMU samples are the clock of the predicted poses.
 void EskfEstimator::coast() {
   const std::optional<Time> newest = queue_.imu().newest();
@@ -146,10 +152,7 @@ HealthRow EskfEstimator::judged_health() {
 /// The pipeline of one scan. Leg packets since the last scan have corrected the belief at their own
 /// stamps (eskf_legs.cpp); `leg_free_` is the prediction without them, for C_IL of eq. (6).
 void EskfEstimator::correct(const LidarScanPtr& scan) {
-  if (scan->end < time_) {
-    ++result_.counts["lidar.before_start"];
-    return;
-  }
+  if (scan->end < time_) return count_behind("lidar", scan->end);
   repeat_lost_legs(scan->end);
   predict_to(scan->end);
   if (!config_.lidar.enabled) return report_pose(scan->end);

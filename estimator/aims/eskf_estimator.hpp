@@ -57,6 +57,7 @@ class EskfEstimator : public Estimator, public MotionSource {
   void note_contradictions();
   void report_pose_without_scan(Time stamp);
   void report_pose(Time stamp);
+  void count_behind(const char* sensor, Time stamp);
   void coast();
   HealthRow judged_health();
   void repeat_lost_legs(Time until);

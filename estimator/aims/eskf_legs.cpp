@@ -51,10 +51,7 @@ Eigen::Matrix3d with_density(const Eigen::Matrix3d& noise, const Eigen::Vector3d
 
 void EskfEstimator::correct(const LegOdometrySample& sample) {
   if (!config_.legs.enabled) return report_pose_without_scan(sample.stamp);
-  if (sample.stamp < time_) {
-    ++result_.counts["leg.before_start"];
-    return;
-  }
+  if (sample.stamp < time_) return count_behind("leg", sample.stamp);
   const Duration period = from_seconds(1.0 / rig_.leg_rate_hz);
   if (!last_leg_) meet_legs(feet_.applies(sample));
   if (last_leg_) {

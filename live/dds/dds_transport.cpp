@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "live/dds/dds_names.hpp"
-#include "live/dds/raw_type.hpp"
 #include "recordings/messages/message_types.hpp"
 
 namespace aims {
@@ -98,8 +97,17 @@ Time DdsTransport::arrival_of(Time sent, bool latching) {
   return played_ = std::max<Time>(sent, 1);  // not what another thread stores meanwhile
 }
 
+/// Counts what a writer numbered since its last sample and what did not arrive: lost on the way, or
+/// no longer kept for this program when it could read on, as after it was stopped.
+void DdsTransport::count_lost(Subscription& subscription, const SampleOrigin& origin) {
+  if (origin.number == 0) return;
+  const auto [last, added] = subscription.last.try_emplace(origin.writer, origin.number);
+  if (!added && origin.number > last->second) lost_ += origin.number - last->second - 1;
+  last->second = std::max(last->second, origin.number);
+}
+
 /// Called by DDS, in its own threads, when a reader has data.
-void DdsTransport::take_samples(const Subscription& subscription, Entity reader) {
+void DdsTransport::take_samples(Subscription& subscription, Entity reader) {
   std::array<ddsi_serdata*, kBatch> samples{};
   std::array<dds_sample_info_t, kBatch> infos{};
   int count = 0;
@@ -108,6 +116,7 @@ void DdsTransport::take_samples(const Subscription& subscription, Entity reader)
     for (int i = 0; i < count; ++i) {
       const auto place = static_cast<std::size_t>(i);
       const auto bytes = raw_bytes(*samples[place]);
+      count_lost(subscription, origin_of(*samples[place]));
       if (infos[place].valid_data && !bytes.empty()) {
         inbox_.push({subscription.connection,
                      arrival_of(infos[place].source_timestamp, subscription.connection->latching),
@@ -140,11 +149,8 @@ void DdsTransport::open(Subscription& subscription) {
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
   const Listener listener(dds_create_listener(&subscription), dds_delete_listener);
   dds_lset_data_available(listener.get(), [](dds_entity_t reader, void* of) {
-    const auto& from = *static_cast<Subscription*>(of);
+    auto& from = *static_cast<Subscription*>(of);
     from.owner->take_samples(from, reader);
-  });
-  dds_lset_sample_lost(listener.get(), [](dds_entity_t, dds_sample_lost_status_t status, void* of) {
-    static_cast<Subscription*>(of)->owner->lost_ += status.total_count_change;
   });
   dds_lset_requested_incompatible_qos(
       listener.get(), [](dds_entity_t, dds_requested_incompatible_qos_status_t status, void* of) {

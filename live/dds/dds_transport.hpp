@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
 #include "live/dds/discovery.hpp"
+#include "live/dds/raw_type.hpp"
 #include "live/transport.hpp"
 
 namespace aims {
@@ -67,13 +70,16 @@ class DdsTransport final : public Transport {
     Entity topic = 0;
     Entity reader = 0;
     std::atomic<bool> refused{false};  ///< a publisher offers less than was asked for
+    /// Number of the last sample of each writer.
+    std::map<std::array<std::byte, 16>, std::uint64_t> last;
   };
 
   explicit DdsTransport(DdsOptions options) : options_(std::move(options)) {}
   void open(Subscription& subscription);
   static void close(Subscription& subscription);
   Time arrival_of(Time sent, bool latching);
-  void take_samples(const Subscription& subscription, Entity reader);
+  void take_samples(Subscription& subscription, Entity reader);
+  void count_lost(Subscription& subscription, const SampleOrigin& origin);
   void refuse(Subscription& subscription, std::uint32_t policy);
   void reopen_refused();
   void watch_publishers();

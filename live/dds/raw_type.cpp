@@ -6,6 +6,8 @@
 #include <dds/dds.h>
 #include <dds/ddsi/ddsi_serdata.h>
 #include <dds/ddsi/ddsi_sertype.h>
+#include <dds/ddsi/q_misc.h>
+#include <dds/ddsi/q_protocol.h>
 #include <dds/ddsi/q_radmin.h>
 
 #include <algorithm>
@@ -23,6 +25,7 @@ struct RawType : ddsi_sertype {};
 struct RawSample : ddsi_serdata {
   std::vector<std::byte> bytes;  ///< padded to a multiple of four, which is read behind the end
   std::size_t size = 0;          ///< without padding
+  SampleOrigin origin;
 };
 
 const RawSample& raw(const ddsi_serdata* sample) { return *static_cast<const RawSample*>(sample); }
@@ -45,11 +48,28 @@ std::uint32_t size_of(const ddsi_serdata* sample) {
   return static_cast<std::uint32_t>(raw(sample).size);
 }
 
+/// As the headers of packet and submessage say, which DDS has checked and brought to the order of
+/// bytes of this machine.
+SampleOrigin origin_of(const nn_rdata& fragment) {
+  SampleOrigin origin;
+  Header_t packet;
+  Data_DataFrag_common_t data;
+  std::memcpy(&packet, NN_RMSG_PAYLOAD(fragment.rmsg), sizeof(packet));
+  std::memcpy(&data, NN_RMSG_PAYLOADOFF(fragment.rmsg, NN_RDATA_SUBMSG_OFF(&fragment)),
+              sizeof(data));
+  std::memcpy(origin.writer.data(), &packet.guid_prefix, sizeof(packet.guid_prefix));
+  std::memcpy(origin.writer.data() + sizeof(packet.guid_prefix), &data.writerId,
+              sizeof(data.writerId));
+  origin.number = fromSN(data.writerSN);
+  return origin;
+}
+
 /// From the fragments of a network message, in order; they may overlap.
 ddsi_serdata* from_fragments(const ddsi_sertype* type, ddsi_serdata_kind kind,
                              const nn_rdata* fragment, std::size_t size) {
   if (size < kHeader || size > kMaxSample) return nullptr;
   auto sample = make_sample(type, kind, size);
+  sample->origin = origin_of(*fragment);
   std::size_t filled = 0;
   for (; fragment != nullptr; fragment = fragment->nextfrag) {
     const std::size_t end = std::min<std::size_t>(fragment->maxp1, size);
@@ -188,5 +208,7 @@ std::span<const std::byte> raw_bytes(const ddsi_serdata& sample) {
   if (sample.kind != SDK_DATA) return {};
   return std::span(raw(&sample).bytes).first(raw(&sample).size);
 }
+
+SampleOrigin origin_of(const ddsi_serdata& sample) { return raw(&sample).origin; }
 
 }  // namespace aims

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,5 +24,12 @@ ddsi_sertype* make_raw_type(const std::string& name);
 /// The bytes of a sample that `dds_takecdr` gave, without what pads them; empty for one without
 /// data.
 std::span<const std::byte> raw_bytes(const ddsi_serdata& sample);
+
+/// Who sent a sample, and as its how many-th, beginning with 1; 0: it did not come by the network.
+struct SampleOrigin {
+  std::array<std::byte, 16> writer{};
+  std::uint64_t number = 0;
+};
+SampleOrigin origin_of(const ddsi_serdata& sample);
 
 }  // namespace aims

@@ -2,6 +2,7 @@
 // Estimators whose sensors are missing, die or carry wrong stamps.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 
@@ -80,6 +81,17 @@ TEST_F(MissingSensors, WithoutALidarLegsCarryTheEstimateAndItSaysSo) {
   const Pose truth = world_.T_world_body(result.trajectory.back().stamp);
   EXPECT_NEAR(result.trajectory.back().pose.translation.x(), truth.translation.x(), 0.3);
   EXPECT_EQ(worst(result), HealthState::kDegraded);
+}
+
+TEST_F(MissingSensors, WhatComesBehindAPredictionByTheImuIsNotOfBeforeTheStart) {
+  const int before = run("aims_d", [](Delivery&) { return true; }).counts.at("leg.before_start");
+  for (Delivery& each : deliveries_) {
+    if (!is_imu(each) && within(each, 5.0, 8.0)) each.arrival = from_seconds(8.0);
+  }
+  std::ranges::stable_sort(deliveries_, {}, &Delivery::arrival);
+  const EstimatorResult result = run("aims_d", [](Delivery&) { return true; });
+  EXPECT_EQ(result.counts.at("leg.before_start"), before);
+  EXPECT_GT(result.counts.at("leg.after_prediction"), 100);
 }
 
 TEST_F(MissingSensors, TheImuAloneCoastsWithGrowingCovariance) {

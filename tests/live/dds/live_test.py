@@ -58,6 +58,16 @@ def summary(folder):
         return json.load(file)
 
 
+def info_of(recording):
+    return subprocess.run([AIMS, "info", recording], capture_output=True, text=True, check=True).stdout
+
+
+def counts(recording):
+    """Messages by topic."""
+    rows = map(str.split, info_of(recording).splitlines())
+    return {row[0]: int(row[2]) for row in rows if row[2:] and row[0].startswith("/") and row[2].isdigit()}
+
+
 def estimate(recording, folder, *options):
     """The bytes of the trajectory of `aims estimate`."""
     run(AIMS, "estimate", recording, "--out", folder, "--overwrite", "--quiet", "--no-pictures", "--no-page", *TOPICS,
@@ -206,10 +216,9 @@ class LiveEstimate(unittest.TestCase):
             self.assertEqual(ours["estimators"]["aims_d"][key], theirs["estimators"]["aims_d"][key], key)
         # A record has the truth to its end, so that the estimate can be scored.
         self.assertEqual(theirs["topics"]["truth"], "/ground_truth/imu")
-        info = subprocess.run([AIMS, "info", live.name + ".mcap"], capture_output=True, text=True, check=True).stdout
-        counts = {row[0]: int(row[2]) for row in map(str.split, info.splitlines()) if row[2:] and row[2].isdigit()}
-        self.assertGreater(counts["/ground_truth/imu"], 9 * counts["/lidar/points"], "100 Hz and 10 Hz")
-        self.assertNotIn("stamps are", info)
+        recorded = counts(live.name + ".mcap")
+        self.assertGreater(recorded["/ground_truth/imu"], 9 * recorded["/lidar/points"], "100 Hz and 10 Hz")
+        self.assertNotIn("stamps are", info_of(live.name + ".mcap"))
         return live
 
     def test_live_poses_are_those_of_the_recording_byte_for_byte(self):
@@ -257,7 +266,7 @@ class LiveEstimate(unittest.TestCase):
         self.assertLess(len(places(live.poses())), len(self.offline.splitlines()))
         self.assertEqual(live.poses(), again)
         self.assertIn("left out (as_live)", json.dumps(summary("waited-again")["notes"]))
-        lines = subprocess.run([AIMS, "info", "waited.mcap"], capture_output=True, text=True, check=True).stdout
+        lines = info_of("waited.mcap")
         samples = next(int(row.split()[2]) for row in lines.splitlines() if row.startswith("/imu/data "))
         self.assertGreater(samples, 750, "of 800, and 10 s are 500")
 
@@ -289,9 +298,25 @@ class LiveEstimate(unittest.TestCase):
             other.kill()
             other.wait()
         self.assertEqual(live.poses(), self.offline)
-        lines = subprocess.run([AIMS, "info", "beside.mcap"], capture_output=True, text=True, check=True).stdout
+        lines = info_of("beside.mcap")
         self.assertLess(float(re.search(r"([0-9.]+) s, \d+ messages", lines)[1]), 20.0, lines)
         self.assertEqual([line for line in live.states() if "no messages" in line], live.states()[-1:])
+
+    def test_what_is_lost_while_it_is_stopped_is_counted(self):
+        # After two seconds, not ten, DDS takes it for killed.
+        lease = ("<CycloneDDS><Domain><Discovery><LeaseDuration>2 s</LeaseDuration></Discovery></Domain></CycloneDDS>")
+        live = Live("walk.mcap", "stopped", pace=1,
+                    limit=["env", f"CYCLONEDDS_URI={os.environ['CYCLONEDDS_URI']},{lease}"])
+        live.wait_for_poses(10)
+        live.live.send_signal(signal.SIGSTOP)
+        time.sleep(4)
+        live.live.send_signal(signal.SIGCONT)
+        self.assertEqual(live.finish(), 0, live.log())
+        sent, recorded = counts("walk.mcap"), counts("stopped.mcap")
+        missing = sum(sent[topic] - recorded[topic] for topic in recorded if topic in sent)
+        self.assertGreater(missing, 500)
+        found = re.search(r"note: (\d+) messages lost by the network", live.log())
+        self.assertEqual(int(found[1]) if found else 0, missing, live.log())
 
     def test_overloaded_it_drops_the_oldest_clouds_and_counts_them(self):
         live = Live("walk.mcap", "overload", ["--source_time"], pace=1, max_wait=0.05)
