@@ -341,7 +341,7 @@ std::string_view CloudSurvey::remedy_of(const TurnTimes& times) {
 void CloudSurvey::warn_of_fall(const TurnTimes& times, const CloudReading& reading,
                                ReadingNotes& notes) {
   if (!times.fall()) return;
-  notes.warn("point times run backwards",
+  notes.warn(kBackwardTimes,
              fmt::format("point field '{}' falls from point to point of each ring: its times run "
                          "backwards, as with the wrong sign (or the points are stored in reverse "
                          "order, which is no fault); {}",
@@ -359,7 +359,7 @@ bool CloudSurvey::warn_of_scale(const TurnTimes& times, Duration about, const Cl
   const double length = 1e-9 * reading.time_unit * std::abs(*turn);
   const double whole = to_seconds(about) * reading.parts.count;
   notes.warn(
-      "point times of another scale",
+      kScaledTimes,
       fmt::format("by point field '{}' a turn takes {:.3g} s, but by the azimuths of clouds "
                   "that come every {:.3g} s it does not: the times are perhaps {:.2g} times "
                   "the true ones; {}",

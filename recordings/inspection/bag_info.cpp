@@ -227,6 +227,7 @@ Result<BagInfo> bag_info(const std::filesystem::path& bag, const RecordingConfig
     info.notes = recording->setup().notes;
     for (const ReadingWarning& each : recording->setup().warnings) {
       info.notes.push_back(each.text);
+      if (each.reason == kBackwardTimes || each.reason == kScaledTimes) info.times_text = each.text;
     }
   } else {
     info.refusal = recording.error().message;

@@ -115,6 +115,7 @@ struct BagInfo {
   bool opens_without_lidar = false;    ///< refused, but not with recording.topics.lidar=none
   bool extrinsics_configured = false;  ///< T_imu_lidar of the configuration is used
   std::vector<std::string> notes;      ///< of `aims estimate`: assumptions and conversions
+  std::string times_text;              ///< where times of points cannot serve; else empty
   std::string rates_text;              ///< where clocks run at different rates; else empty
   std::optional<std::string> refusal;  ///< error of `aims estimate`, if it cannot read the bag
   std::vector<std::string> warnings;   ///< problems, each with its remedy

@@ -65,6 +65,8 @@ bool SystemCheck::clouds_or_legs() {
 void SystemCheck::point_times(Fulfilment without, const std::string& remedy) {
   if (!bag_.cloud) return;
   if (const auto* field = bag_.cloud->time_field()) {
+    const bool wrong = bag_.cloud->topic == bag_.bag->used.lidar && !bag_.bag->times_text.empty();
+    if (wrong) return add(Fulfilment::kPoor, "time of each point", "", bag_.bag->times_text);
     return met("time of each point", field->name + " " + field->type);
   }
   add(without, "time of each point", "no such field", remedy);

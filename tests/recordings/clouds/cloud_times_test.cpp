@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -10,6 +11,8 @@
 #include <tuple>
 #include <utility>
 
+#include "recordings/inspection/bag_check.hpp"
+#include "recordings/inspection/bag_info.hpp"
 #include "recordings/messages/message_types.hpp"
 #include "tests/recordings/stream/recorded_deliveries.hpp"
 #include "tests/recordings/stream/robot_recording.hpp"
@@ -249,6 +252,12 @@ TEST_F(CloudTimes, PointTimesThatTheAzimuthsContradictAreNamed) {
 TEST_F(CloudTimes, PointTimesThatRunBackwardsAreNamedAndAzimuthsMayServe) {
   const Turns backwards = {.scale = -1.0};
   EXPECT_TRUE(read_turns(bag(), backwards).noted("'time' falls from point to point of each ring"));
+  const auto info = bag_info(bag(), {}, {});
+  ASSERT_TRUE(info);
+  const auto is_named = [](const RequirementCheck& each) {
+    return each.requirement == "time of each point" && each.fulfilment == Fulfilment::kPoor;
+  };
+  EXPECT_TRUE(std::ranges::any_of(check_bag(*info), is_named));
   RecordingConfig config;
   config.point_time_unit = PointTimeUnit::kNone;
   config.lidar_clockwise = false;
