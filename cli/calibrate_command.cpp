@@ -43,6 +43,12 @@ Result<void> check_sources(const std::vector<std::string>& sources) {
                      ": no recording or scenario; --topics takes several with commas, "
                      "lidar=/a,imu=/b");
     }
+    if (is_scenario(each) != is_scenario(sources.front())) {
+      return failure(
+          fmt::format("{} and {}: a recording and a scenario cannot be mixed; expected "
+                      "recordings of one robot, or scenarios",
+                      sources.front(), each));
+    }
     std::error_code ignored;
     if (is_scenario(each) || seen.insert(fs::weakly_canonical(each, ignored)).second) continue;
     return failure(each + ": named twice, expected each recording once");

@@ -191,17 +191,6 @@ Result<Scenario> scenario_of(const SharedOptions& options) {
   return load_scenario(*file, *overrides, options.folder);
 }
 
-std::vector<std::string> calibration_warnings(const SharedOptions& options,
-                                              const Scenario& scenario) {
-  if (options.calibration.empty()) return {};
-  const auto calibration = read_robot_calibration(options.calibration);
-  if (!calibration) return {};
-  const std::vector<std::string> found = misfits(*calibration, scenario);
-  if (found.empty()) return {};
-  return {fmt::format("{}: the calibration {} is of another robot: {}", scenario.name,
-                      options.calibration, fmt::join(found, ", "))};
-}
-
 Result<std::vector<ScenarioFile>> scenarios_of(const SharedOptions& options) {
   std::vector<std::string> names = options.named;
   names.insert(names.end(), options.scenarios.begin(), options.scenarios.end());

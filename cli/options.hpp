@@ -97,10 +97,6 @@ Result<void> check_settings(const std::vector<std::string>& settings,
 /// The scenario of SCENARIO with --set and --estimators on top.
 Result<Scenario> scenario_of(const SharedOptions& options);
 
-/// Warnings about a calibration that is of another robot than that of the scenario.
-std::vector<std::string> calibration_warnings(const SharedOptions& options,
-                                              const Scenario& scenario);
-
 /// The scenarios that were given, with --set and --estimators on top. Error when there is none.
 Result<std::vector<ScenarioFile>> scenarios_of(const SharedOptions& options);
 

@@ -80,9 +80,7 @@ void print_run(const Suite& suite, const fs::path& out, const SharedOptions& sha
   print_expectations(suite);
   print_outcome(suite, shared);
   if (const auto warning = route_warning(each.scenario)) print_out("warning: {}\n", *warning);
-  for (const std::string& warning : calibration_warnings(shared, each.scenario)) {
-    print_out("warning: {}\n", warning);
-  }
+  print_calibration_warnings(suite, shared);
   print_out("results: {}\n", (out / "").string());
   for (const fs::path& picture : pictures_in(out)) print_out("  {}\n", picture.string());
 }

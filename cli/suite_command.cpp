@@ -79,11 +79,7 @@ void print_suite(const Suite& suite, const SharedOptions& shared) {
   print_ring_notes(suite);
   print_expectations(suite);
   print_outcome(suite, shared);
-  for (const SuiteCase& each : suite.cases) {
-    for (const std::string& warning : calibration_warnings(shared, each.scenario)) {
-      print_out("warning: {}\n", warning);
-    }
-  }
+  print_calibration_warnings(suite, shared);
   print_out("results: {}, suite.json, suite.csv\n", (fs::path(shared.out) / "suite.md").string());
 }
 

@@ -3,12 +3,15 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <set>
 #include <string>
 #include <utility>
 
+#include "bench/run/calibration_fit.hpp"
 #include "bench/run/simulated_rings.hpp"
+#include "bench/scenario/scenario_draws.hpp"
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"
 
@@ -92,6 +95,39 @@ void print_ring_notes(const Suite& suite) {
     for (std::string& note : ring_notes(each.scenario)) notes.insert(std::move(note));
   }
   for (const std::string& note : notes) print_out("note: {}\n", note);
+}
+
+namespace {
+
+/// How the robots of the seeds differ from that of the calibration, with the seeds of each: a
+/// scenario may draw sensors.
+std::map<std::string, std::vector<std::uint64_t>> misfits_of_seeds(
+    const RobotCalibration& calibration, const SuiteCase& each) {
+  std::map<std::string, std::vector<std::uint64_t>> seeds;
+  for (const RunRecord& run : each.runs) {
+    const auto found = misfits(calibration, scenario_of_seed(each.scenario, run.seed));
+    if (!found.empty()) seeds[fmt::format("{}", fmt::join(found, ", "))].push_back(run.seed);
+  }
+  return seeds;
+}
+
+}  // namespace
+
+void print_calibration_warnings(const Suite& suite, const SharedOptions& options) {
+  if (options.calibration.empty()) return;
+  const auto calibration = read_robot_calibration(options.calibration);
+  if (!calibration) return;
+  if (const std::string idle = nothing_used(*calibration, options.calibration); !idle.empty()) {
+    print_out("note: {}\n", idle);
+  }
+  for (const SuiteCase& each : suite.cases) {
+    for (const auto& [differences, seeds] : misfits_of_seeds(*calibration, each)) {
+      const std::string drawn =
+          each.scenario.draw.empty() ? "" : fmt::format(" seed {}", fmt::join(seeds, ", "));
+      print_out("warning: {}{}: not the robot of the calibration {}: {}\n", each.scenario.name,
+                drawn, options.calibration, differences);
+    }
+  }
 }
 
 void print_outcome(const Suite& suite, const SharedOptions& options) {

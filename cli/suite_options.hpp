@@ -34,6 +34,10 @@ void print_expectations(const Suite& suite);
 /// Prints which estimators the LiDARs of the scenarios do not fit, each once.
 void print_ring_notes(const Suite& suite);
 
+/// Prints that --calibration is of another robot than that of a scenario, or that nothing of it is
+/// used.
+void print_calibration_warnings(const Suite& suite, const SharedOptions& options);
+
 /// Prints how many jobs were done, those that failed, and whether the suite was interrupted.
 void print_outcome(const Suite& suite, const SharedOptions& options);
 

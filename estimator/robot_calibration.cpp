@@ -135,6 +135,13 @@ std::vector<std::string> prior_settings(const RobotCalibration& calibration,
   return settings;
 }
 
+std::string nothing_used(const RobotCalibration& calibration, const std::filesystem::path& file) {
+  if (std::ranges::count(calibration.quantities, true, &CalibratedQuantity::used) > 0) return "";
+  return fmt::format(
+      "no quantity of the calibration {} is used: estimators start as they do without it",
+      file.string());
+}
+
 CalibratedSensors sensors_of(const SensorRig& rig, std::vector<std::string> topics) {
   return {rig.leg_geometry,
           rig.T_body_lidar.translation,

@@ -72,6 +72,9 @@ std::string text_of(const RobotCalibration& calibration);
 std::vector<std::string> prior_settings(const RobotCalibration& calibration,
                                         const std::filesystem::path& file);
 
+/// What is to be said of the calibration of `file` when no quantity of it is used; else empty.
+std::string nothing_used(const RobotCalibration& calibration, const std::filesystem::path& file);
+
 CalibratedSensors sensors_of(const SensorRig& rig, std::vector<std::string> topics);
 
 /// How the body and its mount differ, by which it is another robot for certain.

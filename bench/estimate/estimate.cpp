@@ -152,7 +152,7 @@ std::vector<std::string> topics_of(const TopicsConfig& topics) {
   return used;
 }
 
-/// Warns about a calibration that is of another robot than the recording.
+/// Warns about a calibration that is of another robot than the recording; notes one without effect.
 Result<void> warn_of_misfit(const EstimateOptions& options, RecordingSetup& setup) {
   if (options.calibration.empty()) return {};
   const auto calibration = read_robot_calibration(options.calibration);
@@ -161,6 +161,9 @@ Result<void> warn_of_misfit(const EstimateOptions& options, RecordingSetup& setu
   const bool by_feet = std::ranges::any_of(calibration->quantities, [](const auto& each) {
     return each.used && each.name == "legs_by_feet";
   });
+  if (auto idle = nothing_used(*calibration, options.calibration); !idle.empty()) {
+    setup.notes.push_back(std::move(idle));
+  }
   if (by_feet && !setup.has_joints) found.emplace_back("no joint angles, by which it has the legs");
   if (found.empty()) return {};
   setup.warnings.push_back(

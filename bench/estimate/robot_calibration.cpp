@@ -123,12 +123,11 @@ CalibratedQuantity calibrated(std::span<const LearnedQuantity> runs) {
   return result;
 }
 
-/// The scale of the legs is one with the compliance that it was found with: on soft joints, whose
-/// compliance is known too badly to start from, it is that of the place.
+/// On soft joints the scale of the legs is that of the place, however well the compliance is known.
 void leave_out_soft_legs(std::vector<CalibratedQuantity>& quantities) {
   const auto joints = std::ranges::find(quantities, "joint_compliance", &CalibratedQuantity::name);
   const auto legs = std::ranges::find(quantities, "legs_by_feet", &CalibratedQuantity::name);
-  if (joints == quantities.end() || legs == quantities.end() || joints->used || !legs->used) return;
+  if (joints == quantities.end() || legs == quantities.end() || !legs->used) return;
   const double beyond = joints->values.front() - JointCompliance::kPrior;
   if (beyond < kSoft * joints->prior_sigma.front()) return;
   legs->used = false;

@@ -229,7 +229,8 @@ void EskfEstimator::fuse_scan(ScanDiagnostics& diagnostics) {
   }
   apply_calibration();
   if (measures_legs(config_) && mapping_ && last_leg_ && legs_are_final()) {
-    robot_.compare_legs(belief_.state, mapping_->state, since_last);
+    robot_.compare_legs(belief_.state, mapping_->state, since_last,
+                        lidar_update_.constrains_the_way(mapping_->state));
   }
   if (legs_are_known()) mapping_.reset();
 }

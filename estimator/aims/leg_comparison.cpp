@@ -25,11 +25,12 @@ Eigen::Vector3d ahead(const NominalState& state) {
 
 }  // namespace
 
-void LegComparison::add(const NominalState& by_legs, const NominalState& by_scans, double dt) {
-  if (last_by_scans_ && dt > 0.0) {
-    const Eigen::Vector3d axis = ahead(*last_by_scans_);
-    const double scans = axis.dot(by_scans.position - last_by_scans_->position);
-    const double legs = axis.dot(by_legs.position - last_by_legs_->position);
+void LegComparison::add(const NominalState& by_legs, const NominalState& by_scans, double dt,
+                        bool constrained) {
+  if (last_constrained_ && constrained && dt > 0.0) {
+    const Eigen::Vector3d axis = ahead(last_by_scans_);
+    const double scans = axis.dot(by_scans.position - last_by_scans_.position);
+    const double legs = axis.dot(by_legs.position - last_by_legs_.position);
     const double turn = axis.cross(ahead(by_scans)).norm();  // trunks also roll and pitch
     if (scans > kWalking * dt && turn < kTurning * dt) {
       time_ += dt;
@@ -41,6 +42,7 @@ void LegComparison::add(const NominalState& by_legs, const NominalState& by_scan
   }
   last_by_legs_ = by_legs;
   last_by_scans_ = by_scans;
+  last_constrained_ = constrained;
   if (piece_scans_ < kPiece) return;
   const double ratio = piece_legs_ / piece_scans_;
   const double before = ratio - mean_ratio_;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 
 #include "estimator/filter/error_state.hpp"
 
@@ -14,8 +13,9 @@ namespace aims {
 class LegComparison {
  public:
   /// Adds the states at the end of a scan, `dt` [s] after the last one: by legs alone along the
-  /// way, and by scans. Turns and standing do not count.
-  void add(const NominalState& by_legs, const NominalState& by_scans, double dt);
+  /// way, and by scans. `constrained`: whether the scan constrains the way. Only what lies between
+  /// two such scans counts, and neither turns nor standing do.
+  void add(const NominalState& by_legs, const NominalState& by_scans, double dt, bool constrained);
 
   /// Information about scale x, y, z and bias x, y, z of the legs: one row v s_x + b_x = z with
   /// the mean speed v, for the `state` whose scale and bias the way by legs has. Zero until there
@@ -26,8 +26,9 @@ class LegComparison {
  private:
   double variance() const;
 
-  std::optional<NominalState> last_by_legs_;
-  std::optional<NominalState> last_by_scans_;
+  bool last_constrained_ = false;  ///< whether the two below are such a scan's
+  NominalState last_by_legs_;
+  NominalState last_by_scans_;
   double time_ = 0.0;   ///< of walking straight [s]
   double legs_ = 0.0;   ///< way by legs [m]
   double scans_ = 0.0;  ///< way by scans [m]

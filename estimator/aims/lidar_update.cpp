@@ -110,11 +110,16 @@ Step step_between(const Pose& before, const Pose& after) {
                                                                       : Step::kConverged;
 }
 
-/// Projection of the position onto what lies across the heading, odometry axes.
-Eigen::Matrix3d across_the_way(const NominalState& state) {
+/// Along the heading, level, odometry axes.
+Eigen::Vector3d along_the_way(const NominalState& state) {
   Eigen::Vector3d ahead = state.rotation * Eigen::Vector3d::UnitX();
   ahead.z() = 0.0;
-  ahead.normalize();
+  return ahead.normalized();
+}
+
+/// Projection of the position onto what lies across the heading, odometry axes.
+Eigen::Matrix3d across_the_way(const NominalState& state) {
+  const Eigen::Vector3d ahead = along_the_way(state);
   return Eigen::Matrix3d::Identity() - ahead * ahead.transpose();
 }
 
@@ -159,6 +164,13 @@ GainMask LidarUpdate::scan_mask(const NominalState& state) const {
 
 std::optional<double> LidarUpdate::shared_tilt() const {
   return part_ == ScanPart::kAll ? std::optional(kSharedTilt) : std::nullopt;
+}
+
+/// A free axis within 45 degrees of the way leaves it free.
+bool LidarUpdate::constrains_the_way(const NominalState& state) const {
+  if (!cross_validation_.enabled) return false;
+  const Eigen::Vector3d ahead = along_the_way(state);
+  return ahead.dot(fraction_.constrained() * ahead) > 0.5;
 }
 
 Belief LidarUpdate::fuse_velocity(const Belief& belief, const LinearMeasurement& velocity,

@@ -94,6 +94,10 @@ class LidarUpdate {
   /// Whether cross-validation has shown that the last scan leaves no direction free.
   bool constrains_all_directions() const { return cross_validation_.enabled && !considers_legs(); }
 
+  /// Whether cross-validation has shown that the last scans constrain the way ahead of `state`,
+  /// whatever of them the real part keeps.
+  bool constrains_the_way(const NominalState& state) const;
+
   /// The belief after fusing a velocity; `mask` applies where scans constrain every direction.
   /// Along an unconstrained direction the gain is conditioned on a known leg scale
   /// (Schmidt-Kalman): position and velocity share the error of the leg scale over the whole route,

@@ -39,9 +39,10 @@ class RobotKnowledge {
   /// Adds what a leg packet made of the belief, where it corrects the leg states and is judged.
   void after_legs(const Belief& before, const Belief& after) { legs().data.add(before, after); }
   /// Adds the states after a scan by legs alone along the way and by scans, where they are
-  /// compared (`cross_validation.measure_legs`).
-  void compare_legs(const NominalState& by_legs, const NominalState& by_scans, double dt) {
-    comparison_.add(by_legs, by_scans, dt);
+  /// compared (`cross_validation.measure_legs`), and whether scans constrain the way.
+  void compare_legs(const NominalState& by_legs, const NominalState& by_scans, double dt,
+                    bool constrained) {
+    comparison_.add(by_legs, by_scans, dt, constrained);
   }
   /// Random walk of the leg states against that of an unknown robot: what is calibrated hardly
   /// changes on one way.

@@ -105,6 +105,7 @@ Matrix6 soft_constraints(std::span<const LocalizedDirection> directions, double 
 
 void describe(Fields& f, XIcpConfig& c) {
   const std::string source(kPackage);
+  const std::string chosen("docs/baselines/constrained.md#x_icp");
   f.number("minimal_angle_deg", c.minimal_angle_deg,
            {"deg", in_range(0.0, 90.0),
             "correspondences whose normal or moment is farther from a direction do not contribute",
@@ -112,16 +113,19 @@ void describe(Fields& f, XIcpConfig& c) {
   f.number("strong_angle_deg", c.strong_angle_deg,
            {"deg", in_range(0.0, 90.0), "nearer to it their contribution is a strong one", source});
   f.number("high_information", c.high_information,
-           {"-", up_to(1e9), "sum of contributions at which a direction is localizable", source});
+           {"-", up_to(1e9),
+            "sum of contributions at which a direction is localizable (published: 300)", chosen});
   f.number(
       "enough_information", c.enough_information,
       {"-", up_to(1e9),
        "sum of strong contributions at which a direction is localizable, and of all at which it "
-       "is partially",
-       source});
+       "is partially (published: 300)",
+       chosen});
   f.number("insufficient_information", c.insufficient_information,
            {"-", up_to(1e9),
-            "sum of strong contributions at which a direction is partially localizable", source});
+            "sum of strong contributions at which a direction is partially localizable "
+            "(published: 150)",
+            chosen});
   f.number(
       "soft_weight", c.soft_weight,
       {"-", up_to(1e9),

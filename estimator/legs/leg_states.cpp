@@ -26,7 +26,7 @@ void add_variance(ErrorMatrix& covariance, ErrorState::Block at, double sigma, d
 void describe(Fields& f, LegStatesConfig& c) {
   f.flag("enabled", c.enabled, {"", any(), "estimate scale and bias of the leg odometry"});
   f.number("scale_sigma", c.scale_sigma,
-           {"-", positive_up_to(1e6), "initial deviation of the scale",
+           {"-", positive_up_to(1e6), "initial deviation of the scale; with feet at most 0.04",
             "docs/decisions.md#leg-scale-with-a-prior-of-012"});
 }
 

@@ -12,13 +12,13 @@ void describe(Fields& f, LegConfig& c) {
   f.vector("velocity_sigma", c.velocity_sigma,
            {"m/s", positive_up_to(1e3),
             "error of one sample along the base axes, R_leg; with cross_validation 0.1 until the "
-            "leg scale is known",
+            "leg scale is known; no effect where feet serve, which need no reported velocity",
             "docs/decisions.md#leg-noise-of-003-ms-per-sample"});
   f.number(
       "scale_sigma", c.scale_sigma,
       {"-", up_to(1e6),
        "error proportional to the speed, R_leg; with cross_validation 0.05 until the leg scale "
-       "is known",
+       "is known; no effect where feet serve, as velocity_sigma",
        "docs/decisions.md#leg-noise-of-003-ms-per-sample"});
 }
 

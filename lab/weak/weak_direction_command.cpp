@@ -24,6 +24,9 @@ int weak_command(const SharedOptions& shared) {
   if (!seeds) return bad_input(kWeakName, seeds.error());
   std::vector<WeakDirection> runs;
   for (const ScenarioFile& each : *scenarios) {
+    if (!each.scenario) return bad_input(kWeakName, each.scenario.error());
+  }
+  for (const ScenarioFile& each : *scenarios) {
     for (const std::uint64_t seed : *seeds) {
       if (!shared.quiet) print_error(fmt::format("{} seed {}", each.scenario->name, seed));
       const auto run = weak_direction(*each.scenario, seed, shared.cache, [](double) {});

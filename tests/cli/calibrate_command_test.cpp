@@ -46,10 +46,51 @@ TEST_F(Calibrate, ARunStartsFromTheFileAndAnotherRobotIsAWarning) {
   EXPECT_NE(config.find("robot_seed: 3"), std::string::npos) << config;
   const Outcome other =
       aims(run + "--set robot.legs.calf=0.23 --calibration robot.yaml --out other");
-  EXPECT_TRUE(holds(other, "is of another robot: legs of other dimensions")) << other.output;
+  EXPECT_TRUE(holds(other, "my: not the robot of the calibration robot.yaml: legs of other"))
+      << other.output;
   EXPECT_TRUE(holds(other, "(calibration of another robot")) << other.output;
   const std::string rows = read_file(folder_.path() / "other" / "aims_d.health.csv").value();
   EXPECT_EQ(rows.find(",healthy,"), std::string::npos) << rows;
+}
+
+/// `text` with what it says of `part` replaced.
+std::string with(std::string text, const std::string& part, const std::string& other) {
+  return text.replace(text.find(part), part.size(), other);
+}
+
+TEST_F(Calibrate, SensorsAreComparedAfterTheSeedHasDrawnThem) {
+  scenario(testing::kMetreWalk + "draw: [{key: leg_odometry.rate, values: ['400']}]\n");
+  const std::string run =
+      "run my.yaml --no-pictures --no-page --quiet --estimators aims_d --calibration robot.yaml "
+      "--out ";
+  write("robot.yaml", with(kRobot, "  lidar_tr", "  leg_rate: 400\n  lidar_tr"));
+  const Outcome same = aims(run + "same");
+  EXPECT_EQ(same.exit_code, 0) << same.output;
+  EXPECT_FALSE(holds(same, "warning")) << same.output;
+  write("robot.yaml", with(kRobot, "  lidar_tr", "  leg_rate: 100\n  lidar_tr"));
+  const Outcome other = aims(run + "other");
+  EXPECT_TRUE(holds(other,
+                    "warning: my seed 1: not the robot of the calibration robot.yaml: "
+                    "legs at 400 instead of 100 Hz"))
+      << other.output;
+}
+
+TEST_F(Calibrate, ACalibrationWithoutEffectIsNoted) {
+  scenario(testing::kMetreWalk);
+  write("robot.yaml", with(kRobot, "used: true", "used: false"));
+  const Outcome run =
+      aims("run my.yaml --no-pictures --no-page --quiet --estimators leg --calibration robot.yaml");
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_TRUE(holds(run, "note: no quantity of the calibration robot.yaml is used")) << run.output;
+}
+
+TEST_F(Calibrate, RecordingsAndScenariosCannotBeMixed) {
+  scenario(testing::kMetreWalk);
+  write("a.bag", "no bag");
+  const Outcome mixed = aims("calibrate a.bag my.yaml --robot-seed 3 --quiet -o robot.yaml");
+  EXPECT_EQ(mixed.exit_code, 2) << mixed.output;
+  EXPECT_TRUE(holds(mixed, "a.bag and my.yaml: a recording and a scenario cannot be mixed"))
+      << mixed.output;
 }
 
 TEST_F(Calibrate, ARecordingCountsOnceAndATableIsOne) {

@@ -109,22 +109,25 @@ TEST(CombinedCalibration, LegsThatNoRobotHasAreNotUsedAndItIsSaid) {
 }
 
 // Their disagreement is in the file; nothing starts from them.
-// Their scale is that of the place where it was found, and the compliance is known too badly.
+// Their scale is that of the place where it was found, also where the compliance is known well.
 TEST(CombinedCalibration, TheScaleOfLegsOnSoftJointsIsNotUsed) {
-  const auto with_compliance = [](double value) {
+  const auto with_compliance = [](double value, double sigma) {
     CalibrationRun robot = run("a", 0.03, 0.01);
     robot.learned.front().name = "legs_by_feet";
-    LearnedQuantity joints = run("a", value, 0.3).learned.front();
+    LearnedQuantity joints = run("a", value, sigma).learned.front();
     joints.name = "joint_compliance";
     joints.prior_sigma = Eigen::VectorXd::Constant(1, 0.4);
     robot.learned.push_back(joints);
     return combined(std::vector{robot}, "aims_d").quantities;
   };
-  const auto soft = with_compliance(2.0);
-  EXPECT_EQ(soft.back().verdict[0], kNotObservable);
-  EXPECT_FALSE(soft.front().used);
-  EXPECT_NE(soft.front().note.find("the joints are soft"), std::string::npos) << soft.front().note;
-  EXPECT_TRUE(with_compliance(0.5).front().used);
+  for (const double sigma : {0.3, 0.1}) {
+    const auto soft = with_compliance(2.0, sigma);
+    EXPECT_EQ(soft.back().verdict[0], sigma < 0.2 ? kObservable : kNotObservable);
+    EXPECT_FALSE(soft.front().used);
+    EXPECT_NE(soft.front().note.find("the joints are soft"), std::string::npos)
+        << soft.front().note;
+    EXPECT_TRUE(with_compliance(0.5, sigma).front().used);
+  }
 }
 
 TEST(CombinedCalibration, WhatIsOnlyStatedIsNoWarningWhereRunsDisagree) {

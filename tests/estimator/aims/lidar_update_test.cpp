@@ -47,6 +47,18 @@ TEST(LidarUpdate, KnowsThatAllDirectionsAreConstrainedByCrossValidationOnly) {
   EXPECT_FALSE(CorridorWalk(true, "tfs_plus").update.constrains_all_directions());
 }
 
+// Also of the scans whose real part is cut along the way, since legs are compared with them.
+TEST(LidarUpdate, PlainWallsLeaveTheWayFreeAndPillarsDoNot) {
+  for (const bool pillars : {true, false}) {
+    const CorridorWalk walk(pillars, "aims_d", 0.0, ScanPart::kAll);
+    NominalState ahead;
+    EXPECT_EQ(walk.update.constrains_the_way(ahead), pillars);
+    ahead.rotation = so3_exp({0.0, 0.0, 1.4});
+    EXPECT_TRUE(walk.update.constrains_the_way(ahead)) << "across the corridor";
+  }
+  EXPECT_FALSE(CorridorWalk(true, "tfs_plus").update.constrains_the_way(NominalState()));
+}
+
 // Between pillars a scan corrects the leg scale; while the compliance of the joints is being
 // learned it leaves the scale alone.
 TEST(LidarUpdate, LegsThatAreHeldKeepTheirScale) {
