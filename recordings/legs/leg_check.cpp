@@ -84,7 +84,6 @@ void LegCheck::add_joints(const std::array<double, kJointCount>& angles,
 void LegCheck::add_feet(const std::vector<StandingFoot>& feet, const Eigen::Vector3d& velocity,
                         bool differenced) {
   if (!last_ || feet.empty() || !velocity.allFinite()) return;
-  window_.differenced = window_.differenced || differenced;
   signs_.add_legs(velocity);
   ++window_.legs;
   window_.by_legs += R_world_base_ * (velocity + turning_.cross(place_));
@@ -98,7 +97,7 @@ void LegCheck::add_feet(const std::vector<StandingFoot>& feet, const Eigen::Vect
     stance.depth -= up.dot(from_hip);
     stance.apart += from_hip.x();
     stance.below -= from_hip.z();
-    stance.rise -= (foot.velocity + turning_.cross(foot.position)).z();
+    if (!differenced) add_rises({{foot.leg, -(foot.velocity + turning_.cross(foot.position)).z()}});
   }
   for (std::size_t i = 1; i < feet.size(); ++i) {
     // The velocities of feet that stand differ by the turning of the base alone.
@@ -111,12 +110,20 @@ void LegCheck::add_feet(const std::vector<StandingFoot>& feet, const Eigen::Vect
   }
 }
 
+void LegCheck::add_rises(const std::vector<FootRise>& rises) {
+  for (const FootRise& each : rises) {
+    Stance& stance = window_.stances[static_cast<std::size_t>(each.leg)];
+    stance.rise += each.speed;
+    ++stance.rises;
+  }
+}
+
 void LegCheck::close() {
   compare_turning();
   compare_velocities();
   if (window_.legs >= kFewestSamples && window_.speed > kWalking * window_.legs) {
     count_walking();
-    if (!window_.differenced) compare_slopes();
+    compare_slopes();
   }
   window_ = {};
   begin_ = *last_;
@@ -139,7 +146,7 @@ void LegCheck::compare_slopes() {
   if (std::abs(forward) < kWalking) return;
   for (std::size_t leg = 0; leg < slopes_.size(); ++leg) {
     const Stance& stance = window_.stances[leg];
-    if (stance.samples >= kFewestOfStance) slopes_[leg].add(stance.rise / stance.samples, forward);
+    if (stance.rises >= kFewestOfStance) slopes_[leg].add(stance.rise / stance.rises, forward);
   }
 }
 

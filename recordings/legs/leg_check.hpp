@@ -11,6 +11,7 @@
 #include "core/leg_kinematics.hpp"
 #include "core/measurements.hpp"
 #include "recordings/legs/axis_signs.hpp"
+#include "recordings/legs/foot_differences.hpp"
 #include "recordings/legs/signal_agreement.hpp"
 #include "recordings/reading_notes.hpp"
 
@@ -44,9 +45,11 @@ class LegCheck {
   void add_joints(const std::array<double, kJointCount>& angles,
                   const std::array<bool, kLegCount>& unknown = {});
   /// The feet in contact and the velocity of the base that they state, in base axes; `differenced`:
-  /// by differences of angles, of which some reach over touchdown.
+  /// by differences of angles, of which some reach over touchdown; `add_rises` adds how they rise.
   void add_feet(const std::vector<StandingFoot>& feet, const Eigen::Vector3d& velocity,
                 bool differenced = false);
+  /// By central differences, where the velocities of `add_feet` are differenced.
+  void add_rises(const std::vector<FootRise>& rises);
 
   /// What contradicts; nothing with too little motion.
   std::vector<ReadingWarning> warnings() const;
@@ -59,6 +62,7 @@ class LegCheck {
     double apart = 0.0;  ///< in front of it [m]
     double below = 0.0;  ///< it, along z of the base [m]
     double rise = 0.0;   ///< velocity of the base along its z, by this foot [m/s]
+    int rises = 0;       ///< samples of it
   };
   /// Sums over half a second.
   struct Window {
@@ -71,7 +75,6 @@ class LegCheck {
     /// Turn rate about z by what pairs of feet do along x and y, weighted, and the weights.
     Eigen::Vector2d by_feet = Eigen::Vector2d::Zero(), weight = Eigen::Vector2d::Zero();
     std::array<Stance, kLegCount> stances;
-    bool differenced = false;                               ///< velocities of feet are
     std::optional<std::array<double, kJointCount>> angles;  ///< the first
     std::array<bool, kLegCount> moved{};  ///< angles of the leg changed, or may have
   };

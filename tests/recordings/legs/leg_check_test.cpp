@@ -129,7 +129,7 @@ TEST(LegCheck, AFootThatNeverStandsHidesNoOtherFault) {
   EXPECT_EQ(warnings_of({.idle = 2}).size(), 1U) << text_of(warnings_of({.idle = 2}));
 }
 
-TEST(LegCheck, DifferencesOfAnglesTellNoSlope) {
+TEST(LegCheck, DifferencesToTheLastAnglesTellNoSlope) {
   Fault fault = zeros({0.0, 0.35, 0.0}, 2);
   fault.differenced = true;
   EXPECT_EQ(text_of(warnings_of(fault)), "");
