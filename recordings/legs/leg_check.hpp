@@ -107,6 +107,8 @@ class LegCheck {
   Eigen::Vector3d turning_ = Eigen::Vector3d::Zero();   ///< the last angular velocity [rad/s]
   Eigen::Vector3d place_ = Eigen::Vector3d::Zero();     ///< of the IMU in the base [m]
   Window window_;
+  double imu_time_ = 0.0;             ///< between samples of the IMU, in all [s]
+  int imu_steps_ = 0;                 ///< how many
   std::optional<Velocities> before_;  ///< of the window before
   std::deque<Velocities> recent_;     ///< of the windows before
   /// Starts and stops that the accelerometer sees in the direction of the legs, or opposite.

@@ -25,21 +25,22 @@ struct Fault {
   std::optional<int> frozen = std::nullopt;  ///< a leg whose angles stand still
   bool unknown = false;                      ///< its angles are no numbers
   bool differenced = false;
+  int rate = 100;  ///< [Hz]
   std::array<bool, kLegCount> without_contacts{};
 };
 
-/// Warnings of a robot that walks to and fro and turns, 30 s at 100 Hz, on two feet at a time, with
-/// noise of 0.2 m/s on their velocities.
+/// Warnings of a robot that walks to and fro and turns, for 30 s, on two feet at a time, with noise
+/// of 0.2 m/s on their velocities.
 std::vector<ReadingWarning> warnings_of(const Fault& fault) {
   std::mt19937 random(7);
   std::normal_distribution<double> noise(0.0, 0.2);
   LegCheck check(kLegs, fault.without_contacts);
-  for (int i = 0; i < 3000; ++i) {
-    const double time = 0.01 * i;
+  for (int i = 0; i < 30 * fault.rate; ++i) {
+    const double time = i / static_cast<double>(fault.rate);
     const Eigen::Vector3d velocity(0.5 * std::sin(time), 0.3 * std::sin(1.3 * time), 0.0);
     const Eigen::Vector3d turning(0.0, 0.0, 0.6 * std::sin(0.7 * time));
     ImuSample imu;
-    imu.stamp = i * 10 * kMillisecond;
+    imu.stamp = from_seconds(time);
     imu.angular_velocity = turning;
     imu.specific_force = Eigen::Vector3d(0.5 * std::cos(time), 0.39 * std::cos(1.3 * time), 9.81) +
                          turning.cross(velocity);
@@ -156,7 +157,15 @@ TEST(LegCheck, AnAccelerometerThatTheLegsContradictIsNamed) {
   const auto mirrored = [](StandingFoot& foot) { foot.velocity.x() *= -1.0; };
   expect_named({.of_foot = mirrored}, "x of the accelerometer, or the joints");
   const auto small = [](StandingFoot& foot) { foot.velocity *= 0.4; };
-  expect_named({.of_foot = small}, "the lengths (leg_geometry), the zero or the unit");
+  expect_named({.of_foot = small, .rate = 200}, "the lengths (leg_geometry), the zero or the unit");
+}
+
+TEST(LegCheck, SingleSamplesOfASlowAccelerometerAreNoScale) {
+  const auto small = [](StandingFoot& foot) { foot.velocity *= 0.4; };
+  for (const int rate : {50, 100}) {
+    const std::string text = text_of(warnings_of({.of_foot = small, .rate = rate}));
+    EXPECT_EQ(text.find("accelerometer"), std::string::npos) << text;
+  }
 }
 
 /// Of a robot that walks straight ahead and rolls by 1.5 degrees to and fro; `sign`: of y of its
