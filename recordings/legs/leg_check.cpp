@@ -82,7 +82,7 @@ void LegCheck::add_joints(const std::array<double, kJointCount>& angles,
   if (!window_.angles) window_.angles = angles;
   for (std::size_t i = 0; i < angles.size(); ++i) {
     const bool kept = angles[i] == (*window_.angles)[i] && !unknown[i / 3];
-    window_.moved[i / 3] = window_.moved[i / 3] || !kept;
+    window_.moved[i] = window_.moved[i] || !kept;
   }
 }
 
@@ -136,8 +136,10 @@ void LegCheck::close() {
 
 void LegCheck::count_walking() {
   walked_ += window_.angles ? 1 : 0;
+  for (std::size_t i = 0; i < frozen_.size(); ++i) {
+    frozen_[i] += window_.angles && !window_.moved[i] ? 1 : 0;
+  }
   for (std::size_t leg = 0; leg < stances_.size(); ++leg) {
-    frozen_[leg] += window_.angles && !window_.moved[leg] ? 1 : 0;
     stances_[leg].samples += window_.stances[leg].samples;
     stances_[leg].depth += window_.stances[leg].depth;
     stances_[leg].apart += window_.stances[leg].apart;
@@ -201,12 +203,35 @@ void LegCheck::compare_direction(const std::optional<Velocities>& now) {
   ++(cosine > 0.0 ? along_ : against_);
 }
 
-/// Warns of legs whose angles stand still while the robot walks; whether there are some.
-bool LegCheck::check_frozen(std::vector<ReadingWarning>& found) const {
-  std::vector<std::string_view> legs;
-  for (std::size_t leg = 0; leg < frozen_.size(); ++leg) {
-    if (2 * frozen_[leg] > walked_) legs.emplace_back(kLegNames[leg]);
+/// The legs with joints that stand still while the robot walks; not those of robots without such a
+/// joint.
+std::vector<std::string> LegCheck::frozen_legs() const {
+  constexpr std::array<std::string_view, 3> kJoints = {"abduction", "hip", "knee"};
+  std::array<std::array<bool, 3>, kLegCount> frozen{};
+  std::array<int, 3> legs_with{};
+  for (std::size_t i = 0; i < frozen_.size(); ++i) {
+    frozen[i / 3][i % 3] = 2 * frozen_[i] > walked_;
+    legs_with[i % 3] += frozen[i / 3][i % 3] ? 1 : 0;
   }
+  std::vector<std::string> legs;
+  for (std::size_t leg = 0; leg < frozen.size(); ++leg) {
+    std::vector<std::string_view> joints;
+    for (std::size_t joint = 0; joint < kJoints.size(); ++joint) {
+      const bool is_joint = legs_with[joint] < kLegCount;
+      if (frozen[leg][joint] && is_joint) joints.push_back(kJoints[joint]);
+    }
+    if (std::ranges::count(frozen[leg], true) == 3) {
+      legs.emplace_back(kLegNames[leg]);
+    } else if (!joints.empty()) {
+      legs.push_back(fmt::format("{} ({})", kLegNames[leg], fmt::join(joints, ", ")));
+    }
+  }
+  return legs;
+}
+
+/// Warns of joints whose angles stand still while the robot walks; whether there are some.
+bool LegCheck::check_frozen(std::vector<ReadingWarning>& found) const {
+  const std::vector<std::string> legs = frozen_legs();
   if (legs.empty() || walked_ < kFewestWindows) return false;
   found.push_back({"angles of a leg stand still",
                    fmt::format("the joint angles of {} do not change while the robot walks: the "
@@ -319,7 +344,7 @@ void LegCheck::check_turning(std::vector<ReadingWarning>& found) const {
   } else if (std::min(along_x, along_y) < kRelated) {
     cause =
         "the order of the legs (joint_names, foot_names), or the sign or zero of joints is "
-        "wrong";
+        "wrong, or contacts are late";
   } else if (std::min(along_x, along_y) < kClear || (is_scale(x.scale()) && is_scale(y.scale()))) {
     return;
   } else if (is_degrees(1.0 / x.scale()) && is_degrees(1.0 / y.scale())) {
@@ -331,7 +356,7 @@ void LegCheck::check_turning(std::vector<ReadingWarning>& found) const {
   } else {
     cause =
         "the scale of the gyro or the rates, zero or lengths (leg_geometry) of the legs are "
-        "wrong";
+        "wrong, or contacts are late";
   }
   found.push_back(
       {kFeetAgainstGyro,
@@ -353,12 +378,12 @@ void LegCheck::check_acceleration(std::vector<ReadingWarning>& found) const {
     if (correlation > kOpposite && !scaled) continue;
     const char name = "xy"[axis];
     const std::string cause =
-        scaled
-            ? "the lengths (leg_geometry), the zero or the unit of the joints, or the IMU is wrong"
-            : fmt::format(
-                  "{} of the accelerometer, or the joints that move the feet along {}, "
-                  "have the wrong sign",
-                  name, name);
+        scaled ? "the lengths (leg_geometry), the zero or the unit of the joints, or the IMU is "
+                 "wrong, or contacts are late"
+               : fmt::format(
+                     "{} of the accelerometer, or the joints that move the feet along {}, "
+                     "have the wrong sign",
+                     name, name);
     found.push_back({"legs contradict the accelerometer",
                      fmt::format("the velocity along {} by the legs changes by {:.2g} times what "
                                  "the accelerometer says (correlation {:.2f} over {} half "

@@ -76,7 +76,7 @@ class LegCheck {
     Eigen::Vector2d by_feet = Eigen::Vector2d::Zero(), weight = Eigen::Vector2d::Zero();
     std::array<Stance, kLegCount> stances;
     std::optional<std::array<double, kJointCount>> angles;  ///< the first
-    std::array<bool, kLegCount> moved{};  ///< angles of the leg changed, or may have
+    std::array<bool, kJointCount> moved{};                  ///< the angle changed, or may have
   };
   /// Mean velocities of a window.
   struct Velocities {
@@ -88,6 +88,7 @@ class LegCheck {
   void compare_direction(const std::optional<Velocities>& now);
   void compare_slopes();
   void count_walking();
+  std::vector<std::string> frozen_legs() const;
   bool check_frozen(std::vector<ReadingWarning>& found) const;
   void check_idle(std::vector<ReadingWarning>& found) const;
   void check_stances(std::vector<ReadingWarning>& found) const;
@@ -118,7 +119,7 @@ class LegCheck {
       changes_;                            ///< of velocity by legs and accelerometer, along x and y
   std::array<Stance, kLegCount> stances_;  ///< while the robot walks
   int walked_ = 0;                         ///< windows with joints
-  std::array<int, kLegCount> frozen_{};    ///< of them, in which the angles of a leg stood still
+  std::array<int, kJointCount> frozen_{};  ///< of them, in which the angle of a joint stood still
   std::array<SignalAgreement, kLegCount> slopes_;  ///< of the velocity by a foot, along z over x
 };
 

@@ -21,9 +21,10 @@ constexpr std::array<bool, kLegCount> kDiagonalAlone = {false, true, true, false
 struct Fault {
   std::function<void(StandingFoot&)> of_foot = [](StandingFoot&) {};
   std::function<void(ImuSample&)> of_imu = [](ImuSample&) {};
-  std::optional<int> idle = std::nullopt;    ///< a foot that never stands
-  std::optional<int> frozen = std::nullopt;  ///< a leg whose angles stand still
-  bool unknown = false;                      ///< its angles are no numbers
+  std::optional<int> idle = std::nullopt;                      ///< a foot that never stands
+  std::optional<int> frozen = std::nullopt;                    ///< a leg whose angles stand still
+  std::function<bool(int)> still = [](int) { return false; };  ///< whether a joint's angle does
+  bool unknown = false;                                        ///< its angles are no numbers
   bool differenced = false;
   int rate = 100;  ///< [Hz]
   std::array<bool, kLegCount> without_contacts{};
@@ -61,7 +62,7 @@ std::vector<ReadingWarning> warnings_of(const Fault& fault) {
     stated /= static_cast<double>(feet.size());
     std::array<double, kJointCount> angles{};
     for (int k = 0; k < kJointCount; ++k)
-      angles[static_cast<std::size_t>(k)] = k / 3 == fault.frozen ? 0.8 : time;
+      angles[static_cast<std::size_t>(k)] = k / 3 == fault.frozen || fault.still(k) ? 0.8 : time;
     std::array<bool, kLegCount> unknown{};
     if (fault.frozen) unknown[static_cast<std::size_t>(*fault.frozen)] = fault.unknown;
     check.add_joints(angles, unknown);
@@ -117,6 +118,16 @@ TEST(LegCheck, AFootThatNeverStandsAndALegWhoseAnglesStandStillAreNamed) {
       << "said before";
   expect_named({.frozen = 1}, "the joint angles of FR do not change while the robot walks");
   EXPECT_EQ(text_of(warnings_of({.frozen = 1, .unknown = true})), "");
+}
+
+TEST(LegCheck, AJointWhoseAngleStandsStillIsNamed) {
+  expect_named({.still = [](int joint) { return joint == 5; }}, "angles of FR (knee) do not");
+  expect_named({.still = [](int joint) { return joint == 6 || joint == 7; }},
+               "angles of RL (abduction, hip) do not");
+  expect_named({.frozen = 1, .still = [](int joint) { return joint % 3 == 0; }},
+               "angles of FR do not");
+  EXPECT_EQ(text_of(warnings_of({.still = [](int joint) { return joint % 3 == 0; }})), "")
+      << "a robot without abductions";
 }
 
 TEST(LegCheck, AFootThatNeverStandsHidesNoOtherFault) {
