@@ -146,7 +146,7 @@ void warn_of_feet(EstimateResult& result) {
     warn("feet in contact disagree",
          fmt::format("the feet in contact state different velocities in {} of {:.0f} samples: is "
                      "the order of the joints and of the feet right (joint_names, foot_names), "
-                     "and the threshold of contact?",
+                     "and the threshold of contact, and are the contacts not late?",
                      apart, samples));
   }
 }

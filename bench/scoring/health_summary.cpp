@@ -11,17 +11,30 @@
 namespace aims {
 namespace {
 
-/// The reasons that lasted longest, at most three.
-std::string reasons_text(const HealthSummary& summary) {
+constexpr std::size_t kMostReasons = 3;
+
+/// The reasons that lasted longest.
+std::string timed_text(const HealthSummary& summary) {
   std::vector<std::pair<double, std::string>> longest;
   for (const auto& [reason, seconds] : summary.reasons) longest.emplace_back(seconds, reason);
   std::ranges::sort(longest, std::greater<>());
   std::vector<std::string> texts;
-  for (std::size_t i = 0; i < std::min<std::size_t>(3, longest.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(kMostReasons, longest.size()); ++i) {
     texts.push_back(fmt::format("{} {:.1f} s", longest[i].second, longest[i].first));
   }
   if (longest.size() > texts.size()) texts.emplace_back("...");
   return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+/// The same after those of the recording, whose warnings say how long what they name lasts.
+std::string reasons_text(const HealthSummary& summary) {
+  const std::string timed = timed_text(summary);
+  const auto& all = summary.of_recording;
+  if (all.empty()) return timed;
+  const auto most = std::min(kMostReasons, all.size());
+  return fmt::format("{}{}{}{}",
+                     fmt::join(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(most), ", "),
+                     all.size() > most ? ", ..." : "", timed.empty() ? "" : "; ", timed);
 }
 
 constexpr const char* kNotJudged = "not judged";

@@ -195,6 +195,15 @@ std::optional<std::vector<double>> row_of(const Columns& columns, std::size_t ro
   return numbers;
 }
 
+/// The same with NaN for what is missing, or nothing where all is: legs that have theirs serve.
+std::optional<std::vector<double>> partial_row_of(const Columns& columns, std::size_t row) {
+  std::vector<double> numbers;
+  for (const std::vector<double>& each : columns) numbers.push_back(each[row]);
+  const auto is_number = [](double each) { return std::isfinite(each); };
+  if (std::ranges::none_of(numbers, is_number)) return std::nullopt;
+  return numbers;
+}
+
 void put_header(MessageBytes& out, Time stamp, std::string_view frame) {
   out.put(std::uint32_t{0});
   out.time(stamp);
@@ -226,7 +235,7 @@ std::optional<MessageBytes> forces_of(const Table& table, std::size_t row) {
 }
 
 std::optional<MessageBytes> joints_of(const Table& table, std::size_t row) {
-  const auto angles = row_of(table.joint_position, row);
+  const auto angles = partial_row_of(table.joint_position, row);
   if (!angles) return std::nullopt;
   MessageBytes out;
   put_header(out, *table.times[row], kBaseFrame);
@@ -235,7 +244,7 @@ std::optional<MessageBytes> joints_of(const Table& table, std::size_t row) {
     for (const std::string_view joint : kJoints) out.text(fmt::format("{}_{}_joint", foot, joint));
   }
   out.array(*angles);
-  out.array(row_of(table.joint_velocity, row).value_or(std::vector<double>()));
+  out.array(partial_row_of(table.joint_velocity, row).value_or(std::vector<double>()));
   out.array(std::vector<double>());
   return out;
 }

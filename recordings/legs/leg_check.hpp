@@ -11,6 +11,7 @@
 #include "core/leg_kinematics.hpp"
 #include "core/measurements.hpp"
 #include "recordings/legs/axis_signs.hpp"
+#include "recordings/legs/foot_differences.hpp"
 #include "recordings/legs/signal_agreement.hpp"
 #include "recordings/reading_notes.hpp"
 
@@ -44,9 +45,11 @@ class LegCheck {
   void add_joints(const std::array<double, kJointCount>& angles,
                   const std::array<bool, kLegCount>& unknown = {});
   /// The feet in contact and the velocity of the base that they state, in base axes; `differenced`:
-  /// by differences of angles, of which some reach over touchdown.
+  /// by differences of angles, of which some reach over touchdown; `add_rises` adds how they rise.
   void add_feet(const std::vector<StandingFoot>& feet, const Eigen::Vector3d& velocity,
                 bool differenced = false);
+  /// By central differences, where the velocities of `add_feet` are differenced.
+  void add_rises(const std::vector<FootRise>& rises);
 
   /// What contradicts; nothing with too little motion.
   std::vector<ReadingWarning> warnings() const;
@@ -59,6 +62,7 @@ class LegCheck {
     double apart = 0.0;  ///< in front of it [m]
     double below = 0.0;  ///< it, along z of the base [m]
     double rise = 0.0;   ///< velocity of the base along its z, by this foot [m/s]
+    int rises = 0;       ///< samples of it
   };
   /// Sums over half a second.
   struct Window {
@@ -71,9 +75,8 @@ class LegCheck {
     /// Turn rate about z by what pairs of feet do along x and y, weighted, and the weights.
     Eigen::Vector2d by_feet = Eigen::Vector2d::Zero(), weight = Eigen::Vector2d::Zero();
     std::array<Stance, kLegCount> stances;
-    bool differenced = false;                               ///< velocities of feet are
     std::optional<std::array<double, kJointCount>> angles;  ///< the first
-    std::array<bool, kLegCount> moved{};  ///< angles of the leg changed, or may have
+    std::array<bool, kJointCount> moved{};                  ///< the angle changed, or may have
   };
   /// Mean velocities of a window.
   struct Velocities {
@@ -85,6 +88,7 @@ class LegCheck {
   void compare_direction(const std::optional<Velocities>& now);
   void compare_slopes();
   void count_walking();
+  std::vector<std::string> frozen_legs() const;
   bool check_frozen(std::vector<ReadingWarning>& found) const;
   void check_idle(std::vector<ReadingWarning>& found) const;
   void check_stances(std::vector<ReadingWarning>& found) const;
@@ -104,6 +108,8 @@ class LegCheck {
   Eigen::Vector3d turning_ = Eigen::Vector3d::Zero();   ///< the last angular velocity [rad/s]
   Eigen::Vector3d place_ = Eigen::Vector3d::Zero();     ///< of the IMU in the base [m]
   Window window_;
+  double imu_time_ = 0.0;             ///< between samples of the IMU, in all [s]
+  int imu_steps_ = 0;                 ///< how many
   std::optional<Velocities> before_;  ///< of the window before
   std::deque<Velocities> recent_;     ///< of the windows before
   /// Starts and stops that the accelerometer sees in the direction of the legs, or opposite.
@@ -113,7 +119,7 @@ class LegCheck {
       changes_;                            ///< of velocity by legs and accelerometer, along x and y
   std::array<Stance, kLegCount> stances_;  ///< while the robot walks
   int walked_ = 0;                         ///< windows with joints
-  std::array<int, kLegCount> frozen_{};    ///< of them, in which the angles of a leg stood still
+  std::array<int, kJointCount> frozen_{};  ///< of them, in which the angle of a joint stood still
   std::array<SignalAgreement, kLegCount> slopes_;  ///< of the velocity by a foot, along z over x
 };
 

@@ -51,7 +51,8 @@ void UpDirection::add(const ImuSample& sample) {
 LegStream::LegStream(const LegStreamConfig& config)
     : config_(config),
       check_(config.source == LegSource::kKinematics ? config.geometry : LegGeometry(),
-             config.without_contacts) {}
+             config.without_contacts),
+      differences_(config.geometry) {}
 
 void LegStream::add_imu(const ImuSample& sample) {
   if (!sample.angular_velocity.allFinite()) return;
@@ -297,6 +298,8 @@ std::optional<LegOdometrySample> LegStream::forward_kinematics(const WaitingJoin
   for (const Eigen::Vector3d& each : velocities) sum += each;
   check_.add_feet(feet, sum / static_cast<double>(std::max<std::size_t>(1, feet.size())),
                   joints.differenced);
+  const auto rises = differences_.add(sample);
+  if (joints.differenced) check_.add_rises(rises);
   return finish(std::move(sample), sum, static_cast<int>(velocities.size()), counts);
 }
 

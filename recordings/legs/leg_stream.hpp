@@ -10,6 +10,7 @@
 #include "core/leg_kinematics.hpp"
 #include "core/measurements.hpp"
 #include "recordings/event_counts.hpp"
+#include "recordings/legs/foot_differences.hpp"
 #include "recordings/legs/joint_rates.hpp"
 #include "recordings/legs/leg_check.hpp"
 #include "recordings/legs/leg_messages.hpp"
@@ -98,6 +99,7 @@ class LegStream {
   TwistCheck twist_check_;
   JointRateCheck rate_check_;
   LegCheck check_;
+  FootDifferences differences_;
   std::optional<ImuSample> imu_;
   std::optional<JointReading> joints_;
   std::optional<std::pair<FeetReading, std::array<bool, kLegCount>>> feet_;  ///< the last ones

@@ -152,6 +152,12 @@ Result<ContactRule> LegSurvey::learned_rule(ReadingNotes& notes) const {
       fmt::format("{}: contacts begin/end at '{}' of {} (FL, FR, RL, RR), learned from "
                   "{} messages (contact_detection)",
                   topics_.contacts, contact_field_, list, loads_.size()));
+  if (config_.contact_threshold != RecordingConfig().contact_threshold) {
+    notes.push_back(
+        fmt::format("{}: recording.contact_threshold={:g} is not used, since thresholds are "
+                    "learned: set recording.contact_detection=threshold too",
+                    topics_.contacts, config_.contact_threshold));
+  }
   return rule;
 }
 

@@ -29,6 +29,11 @@ TEST(HealthSummary, CountsTheTimeOfEachStateAndReasonAfterTheStart) {
 TEST(HealthSummary, TextNamesStatesAndTheLongestReasonFirst) {
   EXPECT_EQ(text_of(health_summary(rows())),
             "invalid for 3.0 s, degraded for 2.0 s (no leg odometry 5.0 s, no LiDAR scans 3.0 s)");
+  HealthSummary warned = health_summary(rows());
+  warned.of_recording = {"no foot in contact", "feet disagree"};
+  EXPECT_EQ(text_of(warned),
+            "invalid for 3.0 s, degraded for 2.0 s (no foot in contact, feet disagree; "
+            "no leg odometry 5.0 s, no LiDAR scans 3.0 s)");
   EXPECT_EQ(text_of(health_summary({{0, HealthState::kHealthy, {}, 0.0}})), "");
   EXPECT_EQ(text_of(health_summary({{0, HealthState::kStarting, {}, 0.0}})), "never started");
   EXPECT_EQ(text_of(health_summary({})), "");  // a system that does not judge itself

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <numbers>
 #include <string>
@@ -139,6 +140,25 @@ TEST_F(CsvTable, LacksTheMessagesOfEmptyCells) {
   ASSERT_EQ(reader->connections().size(), 2U);
   EXPECT_EQ(reader->connections()[0].messages, 2U);
   EXPECT_EQ(reader->summary().messages, 4U);
+}
+
+TEST_F(CsvTable, JointsOfWhichAFewAreNoNumbersAreOneMessage) {
+  auto reader = open("joint_position: [a, b, c, d, e, f, g, h, i, j, k, l]\n",
+                     "time,a,b,c,d,e,f,g,h,i,j,k,l\n"
+                     "1,1,2,3,4,5,6,7,8,9,10,11,12\n"
+                     "2,1,nan,3,4,5,6,7,8,9,10,,12\n"
+                     "3,,,,,,,,,,,,\n");
+  ASSERT_TRUE(reader) << reader.error().message;
+  ASSERT_EQ(reader->summary().messages, 2U) << "a row without any angle has none";
+  ASSERT_TRUE(reader->next());
+  const auto message = reader->next();
+  ASSERT_TRUE(message && *message);
+  const std::span<const std::byte> data = (*message)->data;
+  const std::size_t angles = data.size() - (4 + 4) - 12 * sizeof(double);  // before empty arrays
+  for (std::size_t i = 0; i < 12; ++i) {
+    const double angle = number(data, angles + i * sizeof(double));
+    EXPECT_TRUE(i == 1 || i == 10 ? std::isnan(angle) : angle == static_cast<double>(i + 1)) << i;
+  }
 }
 
 TEST_F(CsvTable, TablesOfOtherToolsAreReadAsTheyAre) {

@@ -21,25 +21,27 @@ constexpr std::array<bool, kLegCount> kDiagonalAlone = {false, true, true, false
 struct Fault {
   std::function<void(StandingFoot&)> of_foot = [](StandingFoot&) {};
   std::function<void(ImuSample&)> of_imu = [](ImuSample&) {};
-  std::optional<int> idle = std::nullopt;    ///< a foot that never stands
-  std::optional<int> frozen = std::nullopt;  ///< a leg whose angles stand still
-  bool unknown = false;                      ///< its angles are no numbers
+  std::optional<int> idle = std::nullopt;                      ///< a foot that never stands
+  std::optional<int> frozen = std::nullopt;                    ///< a leg whose angles stand still
+  std::function<bool(int)> still = [](int) { return false; };  ///< whether a joint's angle does
+  bool unknown = false;                                        ///< its angles are no numbers
   bool differenced = false;
+  int rate = 100;  ///< [Hz]
   std::array<bool, kLegCount> without_contacts{};
 };
 
-/// Warnings of a robot that walks to and fro and turns, 30 s at 100 Hz, on two feet at a time, with
-/// noise of 0.2 m/s on their velocities.
+/// Warnings of a robot that walks to and fro and turns, for 30 s, on two feet at a time, with noise
+/// of 0.2 m/s on their velocities.
 std::vector<ReadingWarning> warnings_of(const Fault& fault) {
   std::mt19937 random(7);
   std::normal_distribution<double> noise(0.0, 0.2);
   LegCheck check(kLegs, fault.without_contacts);
-  for (int i = 0; i < 3000; ++i) {
-    const double time = 0.01 * i;
+  for (int i = 0; i < 30 * fault.rate; ++i) {
+    const double time = i / static_cast<double>(fault.rate);
     const Eigen::Vector3d velocity(0.5 * std::sin(time), 0.3 * std::sin(1.3 * time), 0.0);
     const Eigen::Vector3d turning(0.0, 0.0, 0.6 * std::sin(0.7 * time));
     ImuSample imu;
-    imu.stamp = i * 10 * kMillisecond;
+    imu.stamp = from_seconds(time);
     imu.angular_velocity = turning;
     imu.specific_force = Eigen::Vector3d(0.5 * std::cos(time), 0.39 * std::cos(1.3 * time), 9.81) +
                          turning.cross(velocity);
@@ -60,7 +62,7 @@ std::vector<ReadingWarning> warnings_of(const Fault& fault) {
     stated /= static_cast<double>(feet.size());
     std::array<double, kJointCount> angles{};
     for (int k = 0; k < kJointCount; ++k)
-      angles[static_cast<std::size_t>(k)] = k / 3 == fault.frozen ? 0.8 : time;
+      angles[static_cast<std::size_t>(k)] = k / 3 == fault.frozen || fault.still(k) ? 0.8 : time;
     std::array<bool, kLegCount> unknown{};
     if (fault.frozen) unknown[static_cast<std::size_t>(*fault.frozen)] = fault.unknown;
     check.add_joints(angles, unknown);
@@ -118,6 +120,16 @@ TEST(LegCheck, AFootThatNeverStandsAndALegWhoseAnglesStandStillAreNamed) {
   EXPECT_EQ(text_of(warnings_of({.frozen = 1, .unknown = true})), "");
 }
 
+TEST(LegCheck, AJointWhoseAngleStandsStillIsNamed) {
+  expect_named({.still = [](int joint) { return joint == 5; }}, "angles of FR (knee) do not");
+  expect_named({.still = [](int joint) { return joint == 6 || joint == 7; }},
+               "angles of RL (abduction, hip) do not");
+  expect_named({.frozen = 1, .still = [](int joint) { return joint % 3 == 0; }},
+               "angles of FR do not");
+  EXPECT_EQ(text_of(warnings_of({.still = [](int joint) { return joint % 3 == 0; }})), "")
+      << "a robot without abductions";
+}
+
 TEST(LegCheck, AFootThatNeverStandsHidesNoOtherFault) {
   Fault fault = {.of_imu = [](ImuSample& imu) { imu.angular_velocity *= -1.0; }, .idle = 2};
   const std::string text = text_of(warnings_of(fault));
@@ -129,7 +141,7 @@ TEST(LegCheck, AFootThatNeverStandsHidesNoOtherFault) {
   EXPECT_EQ(warnings_of({.idle = 2}).size(), 1U) << text_of(warnings_of({.idle = 2}));
 }
 
-TEST(LegCheck, DifferencesOfAnglesTellNoSlope) {
+TEST(LegCheck, DifferencesToTheLastAnglesTellNoSlope) {
   Fault fault = zeros({0.0, 0.35, 0.0}, 2);
   fault.differenced = true;
   EXPECT_EQ(text_of(warnings_of(fault)), "");
@@ -156,7 +168,15 @@ TEST(LegCheck, AnAccelerometerThatTheLegsContradictIsNamed) {
   const auto mirrored = [](StandingFoot& foot) { foot.velocity.x() *= -1.0; };
   expect_named({.of_foot = mirrored}, "x of the accelerometer, or the joints");
   const auto small = [](StandingFoot& foot) { foot.velocity *= 0.4; };
-  expect_named({.of_foot = small}, "the lengths (leg_geometry), the zero or the unit");
+  expect_named({.of_foot = small, .rate = 200}, "the lengths (leg_geometry), the zero or the unit");
+}
+
+TEST(LegCheck, SingleSamplesOfASlowAccelerometerAreNoScale) {
+  const auto small = [](StandingFoot& foot) { foot.velocity *= 0.4; };
+  for (const int rate : {50, 100}) {
+    const std::string text = text_of(warnings_of({.of_foot = small, .rate = rate}));
+    EXPECT_EQ(text.find("accelerometer"), std::string::npos) << text;
+  }
 }
 
 /// Of a robot that walks straight ahead and rolls by 1.5 degrees to and fro; `sign`: of y of its

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <functional>
 
+#include "tests/recordings/legs/trot.hpp"
+
 namespace aims {
 namespace {
 
@@ -170,6 +172,51 @@ TEST(LegStream, NoRateIsADifferenceAcrossTouchdown) {
   const double speed = samples[4].linear_velocity.norm();
   EXPECT_LT(samples[2].linear_velocity.norm(), 1e-12);
   EXPECT_NEAR(samples[3].linear_velocity.norm(), speed, 0.02 * speed);
+}
+
+/// Warnings of a trot of 30 s, of which angles are recorded, without rates or with rates of zero;
+/// `off`: on the angles of all legs, or of one [rad].
+std::string warnings_without_rates(double rate_hz, const Eigen::Vector3d& off,
+                                   std::optional<int> leg = std::nullopt, bool zeros = false) {
+  const test::Trot trot;
+  LegStream legs(kinematic());
+  EventCounts counts;
+  const int samples = static_cast<int>(30.0 * rate_hz);
+  for (int i = 0; i < samples; ++i) {
+    const double time = i / rate_hz;
+    const Time stamp = from_seconds(time);
+    legs.add_imu(at_rest(stamp));
+    legs.add_contacts({stamp, trot.contact(time)}, counts);
+    JointReading joints;
+    joints.stamp = stamp;
+    const JointVector angles = trot.angles(time);
+    for (int k = 0; k < kJointCount; ++k) {
+      const bool is_off = !leg || k / 3 == *leg;
+      joints.position[static_cast<std::size_t>(k)] = angles[k] + (is_off ? off[k % 3] : 0.0);
+    }
+    if (zeros) joints.velocity.emplace();
+    legs.add_joints(std::move(joints), counts);
+  }
+  std::string text;
+  for (const ReadingWarning& each : legs.warnings()) text += each.text + "\n";
+  return text;
+}
+
+TEST(LegStream, WrongZerosOfJointsWithoutRatesAreNamed) {
+  const auto is_named = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  for (const double rate : {50.0, 100.0, 400.0}) {
+    EXPECT_EQ(warnings_without_rates(rate, Eigen::Vector3d::Zero()), "") << rate;
+    EXPECT_EQ(warnings_without_rates(rate, {0.03, -0.05, 0.05}), "") << rate;
+    for (const double sign : {-1.0, 1.0}) {
+      const Eigen::Vector3d hip(0.0, 0.3 * sign, 0.0);
+      is_named(warnings_without_rates(rate, hip), "the zero of the hip is off");
+      is_named(warnings_without_rates(rate, hip, 2), "base, RL ");
+      is_named(warnings_without_rates(rate, hip, 2, true), "base, RL ");
+      is_named(warnings_without_rates(rate, {0.0, 0.0, 0.6 * sign}), "the zero of the hip is off");
+    }
+  }
 }
 
 TEST(LegStream, UpIsPropagatedByTheGyroAndCorrectedByTheSpecificForce) {

@@ -177,6 +177,16 @@ TEST_F(RecordedTrot, AThresholdThatIsAskedForIsKeptWhereLoadsAreSmall) {
   EXPECT_FALSE(none.noted("a flag, threshold 0.5"));
 }
 
+TEST_F(RecordedTrot, AThresholdBesideLearnedOnesIsNamed) {
+  RecordingConfig config;
+  config.contact_detection = ContactDetection::kLearned;
+  EXPECT_FALSE(read({}, config).noted("is not used"));
+  config.contact_threshold = 50.0;
+  EXPECT_TRUE(read({}, config).noted("recording.contact_threshold=50 is not used"));
+  config.contact_detection = ContactDetection::kThreshold;
+  EXPECT_FALSE(read({}, config).noted("is not used"));
+}
+
 TEST_F(RecordedTrot, JointsOfWhichMessagesAreMissingAreNamedByTheirTopic) {
   EXPECT_FALSE(read({}).noted("are missing"));
   EXPECT_TRUE(read({.lost = 5}).noted("/joint_states: 80 of 399 messages are missing"));
