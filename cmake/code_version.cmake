@@ -10,7 +10,7 @@ foreach(folder core sim models estimator bench)
   list(FILTER files EXCLUDE REGEX "^core/files/")
   if(folder STREQUAL "bench")  # the rest of it selects, stores and prints
     list(FILTER files INCLUDE REGEX
-      "^bench/(metrics/|scenario/sequence_record\\.|scoring/(score_list|score_record|timed_estimator|estimator_files|tables)\\.|estimate/stream\\.|run/(run[a-z_]*|evaluate|sequence[a-z_]*|weak_axis_series)\\.)")
+      "^bench/(metrics/|scenario/sequence_record\\.|scoring/(score_list|score_record|timed_estimator|result_files|tables)\\.|estimate/stream\\.|run/(run[a-z_]*|evaluate|sequence[a-z_]*|weak_axis_series)\\.)")
   endif()
   list(SORT files)
   foreach(file ${files})

@@ -30,8 +30,9 @@ void add_live_options(CLI::App& app, LiveOptions& options) {
   app.add_option("--body-frame,--body_frame", options.body_frame, "Frame of the IMU (imu)")
       ->check(is_frame);
   app.add_flag("--tf", options.tf, "Also publish the pose on /tf");
-  app.add_option("--settle", options.settle,
-                 "Time [s] gathered before topics, units and extrinsics are decided (3)")
+  app.add_option(
+         "--settle", options.settle,
+         "Time [s] for which each topic must have come before topics and units are decided (3)")
       ->check(CLI::Range(0.1, 60.0));
   app.add_option("--patience", options.patience,
                  "Timeout [s] without the needed topics; 0: none (0)")

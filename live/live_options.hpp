@@ -19,8 +19,8 @@ struct LiveOptions {
   std::string odom_frame = "odom";  ///< of the published poses
   std::string body_frame = "imu";   ///< child frame: the IMU's
   bool tf = false;                  ///< also publish odom_frame -> body_frame on /tf
-  double settle = 3.0;       ///< time gathered before topics, units and extrinsics are decided [s]
-  double patience = 0.0;     ///< timeout without the needed topics [s]; 0: none
+  double settle = 3.0;              ///< for which each topic must have come before it decides [s]
+  double patience = 0.0;            ///< timeout without the needed topics [s]; 0: none
   double max_wait = 0.05;    ///< a cloud that has waited longer is dropped for a newer one [s]
   bool source_time = false;  ///< arrivals are the publishers' times of sending; DDS alone
 };

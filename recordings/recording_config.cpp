@@ -45,7 +45,7 @@ void describe_clouds(Fields& f, RecordingConfig& c) {
             .range = in_range(1.0, 1000.0),
             .meaning = "scan rate, if neither stamps nor point times determine it"});
   f.flag("lidar_clockwise", c.lidar_clockwise,
-         dimensionless("direction of spin seen from above, if points have no time"));
+         dimensionless("direction of spin seen from above, if no times of points are used"));
 }
 
 void describe_legs(Fields& f, RecordingConfig& c) {

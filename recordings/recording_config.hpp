@@ -86,8 +86,8 @@ struct RecordingConfig {
   PointUnit point_unit = PointUnit::kMetres;
   PointTimeUnit point_time_unit = PointTimeUnit::kAuto;
   CloudStamp cloud_stamp = CloudStamp::kAuto;
-  double lidar_rate = 10.0;     ///< scan rate, if points have no time [Hz]
-  bool lidar_clockwise = true;  ///< direction of spin seen from above, if points have no time
+  double lidar_rate = 10.0;     ///< scan rate, if no times of points are used [Hz]
+  bool lidar_clockwise = true;  ///< direction of spin seen from above, likewise
   double imu_delay = 0.0;       ///< subtracted from the stamps of the IMU [s]
   double lidar_delay = 0.0;     ///< subtracted from the stamps of the LiDAR [s]
   double leg_delay = 0.0;       ///< subtracted from the stamps of the legs [s]

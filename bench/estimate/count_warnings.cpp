@@ -139,8 +139,9 @@ void warn_of_feet(EstimateResult& result) {
                      "contact: taken as no contact; a sensor with an offset?",
                      result.setup.topics.contacts, other));
   }
-  const bool named =
-      std::ranges::count(result.setup.warnings, kFeetAgainstGyro, &ReadingWarning::reason) > 0;
+  const bool named = std::ranges::any_of(result.setup.warnings, [](const ReadingWarning& each) {
+    return each.reason == kFeetAgainstGyro || each.reason == kJointRates;
+  });
   if (const int apart = count_of(result, "feet_in_contact_disagree");
       !named && apart > kDisagree * samples) {
     warn("feet in contact disagree",

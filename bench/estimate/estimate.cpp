@@ -204,8 +204,11 @@ void warn_in_health(const EstimateConfig& config, EstimateResult& result) {
     health.judged = true;
     health.degraded_s += std::exchange(health.healthy_s, 0.0);
     if (health.degraded_s + health.invalid_s == 0.0) health.degraded_s = result.recorded_s;
-    for (const std::string& reason : reasons) health.reasons.erase(reason);
-    health.of_recording = reasons;
+    for (const std::string& reason : reasons) {
+      health.reasons.erase(reason);
+      if (std::ranges::find(health.of_recording, reason) != health.of_recording.end()) continue;
+      health.of_recording.push_back(reason);
+    }
   }
 }
 

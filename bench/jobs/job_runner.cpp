@@ -61,7 +61,7 @@ std::optional<JobResult> JobRunner::finished(const Job& job) {
   if (!result || options_.redo) return std::nullopt;
   if (result->outcome != JobOutcome::kDone) return options_.retry ? std::nullopt : result;
   const JobOutputs& outputs = options_.outputs;
-  const bool whole = (!outputs.trajectories && !outputs.weak_axis) ||
+  const bool whole = job.recorded || (!outputs.trajectories && !outputs.weak_axis) ||
                      store_.has(job.id, sequence_id(job), outputs);
   return whole ? result : std::nullopt;
 }

@@ -87,7 +87,8 @@ using Evaluate =
 
 /// Does jobs, each in a process of its own, so that one that crashes or hangs is recorded as such
 /// and stops nothing else. Each sequence is simulated once, also in a process of its own, and read
-/// by all jobs on it. The calling process must not have other threads that work meanwhile.
+/// by all jobs on it; a job on a recording needs none. The calling process must not have other
+/// threads that work meanwhile.
 ///
 ///   JobRunner runner({.out = out, .jobs = 2});
 ///   runner.run(jobs, observer);                       // those that are not there yet

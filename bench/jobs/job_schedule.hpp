@@ -20,7 +20,7 @@ class JobSchedule {
   Result<JobRun> run();
 
  private:
-  /// One sequence and the jobs that wait for it.
+  /// One sequence and the jobs that wait for it; or one job on a recording, under the job's id.
   struct SequenceWork {
     enum class State { kMissing, kBeingMade, kReady };
 

@@ -20,7 +20,7 @@ struct HealthSummary {
   std::map<std::string, double> reasons;  ///< time [s] of each
   HealthRow last;                         ///< of the rows, where there is one
   std::string too_short;                  ///< why nothing of it tells anything; empty: it does
-  std::vector<std::string> of_recording;  ///< reasons found at the end, which have no time
+  std::vector<std::string> of_recording;  ///< reasons that concern all of it, without a time
 };
 
 /// Adds the row that follows those added before; each holds until the next.

@@ -245,6 +245,7 @@ Result<DatasetBenchmark> run_dataset_benchmark(DatasetProfile profile,
   benchmark.suite.run = *run;
   collect_suite(store, benchmark.suite);
   benchmark.suite.lead_score = benchmark.profile.score;
+  benchmark.suite.lead_unit = benchmark.profile.unit;
   benchmark.notes = benchmark_notes(benchmark);
   return benchmark;
 }

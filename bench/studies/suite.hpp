@@ -35,6 +35,7 @@ struct Suite {
   std::vector<RunFailure> failures;
   std::vector<std::string> settings;  ///< "key=value" on top of every scenario, but who runs
   std::string lead_score;             ///< key of the score that goes first; empty: the headline
+  std::string lead_unit;              ///< of that score, as the data set states it
   bool complete = true;               ///< false when jobs are missing
   JobRun run;                         ///< what this invocation did
 };

@@ -123,12 +123,13 @@ std::vector<Score> scores_of(const Suite& suite) {
   const auto listed = std::ranges::find(scores, lead, &Score::key);
   if (listed != scores.end()) {
     std::rotate(scores.begin(), listed, listed + 1);
-    return scores;
+  } else {
+    scores.insert(scores.begin(), score_at(lead));
+    Score& first = scores.front();
+    if (lead != first.key || first.title.empty()) first.title = lead;
+    first.key = lead.c_str();
   }
-  Score first = score_at(lead);
-  first.key = lead.c_str();
-  if (first.title.empty()) first.title = lead;
-  scores.insert(scores.begin(), first);
+  scores.front().unit = suite.lead_unit;
   return scores;
 }
 

@@ -2,12 +2,12 @@
 #include "bench/tuning/sweep_plan.hpp"
 
 #include <fmt/format.h>
-#include <system_error>
 
 #include <algorithm>
 #include <map>
 #include <memory>
 #include <set>
+#include <system_error>
 #include <utility>
 
 #include "bench/jobs/job_id.hpp"
@@ -356,8 +356,6 @@ Result<std::vector<Job>> plan_jobs(const SweepPlan& plan, const fs::path& folder
 }
 
 namespace {
-
-namespace fs = std::filesystem;
 
 std::string resolved(const fs::path& plan, const std::string& given) {
   std::error_code ignored;

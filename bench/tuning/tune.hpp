@@ -51,7 +51,7 @@ std::vector<std::string> defaults_outside(const TuneTask& task);
 std::size_t expected_jobs(const TuneTask& task);
 
 /// Runs estimators as jobs, those that `runner` has not stored yet, and reads their scores; its
-/// store lists them (bench/tuning/tune_jobs.hpp). The observer is told of all batches as of one
+/// store lists them (`write_tune_jobs`). The observer is told of all batches as of one
 /// work of `expected` jobs.
 RunOnSequences run_by_jobs(JobRunner& runner, const JobObserver& observer,
                            const std::vector<Objective>& objectives, std::size_t expected);

@@ -269,6 +269,8 @@ void CloudSurvey::decide_times(const RecordingConfig& config, CloudReading& read
   static constexpr std::array<std::string_view, 4> kOrigins = {
       "", "relative to the cloud's stamp", "on the clock of the stamps",
       "on another clock, of which only differences are used"};
+  const TurnTimes& times = turn_times_[field];
+  warn_of_fall(times, reading, notes);
   if (reading.normalized_times) {
     return notes.warn(
         "point times assumed to be fractions of the scan",
@@ -277,8 +279,6 @@ void CloudSurvey::decide_times(const RecordingConfig& config, CloudReading& read
                     reading.time_field, first_firing_ns(reading) < 0.0 ? "-1 to 0" : "0 to 1",
                     to_seconds(reading.period)));
   }
-  const TurnTimes& times = turn_times_[field];
-  warn_of_fall(times, reading, notes);
   const bool overlaps = span && 5 * *span >= 6 * std::max(about, mean_spacing());
   if (!warn_of_scale(times, about, reading, notes)) {
     if (too_long || (overlaps && !times.turn())) warn_of_length(*span, about, reading, notes);

@@ -229,6 +229,10 @@ Result<BagInfo> bag_info(const std::filesystem::path& bag, const RecordingConfig
       info.notes.push_back(each.text);
       if (each.reason == kBackwardTimes || each.reason == kScaledTimes) info.times_text = each.text;
     }
+    if (config.point_time_unit == PointTimeUnit::kNone) {
+      info.times_text =
+          "its times are not used (recording.point_time_unit=none): azimuths serve in their place";
+    }
   } else {
     info.refusal = recording.error().message;
     info.opens_without_lidar = info.clouds.empty() && opens_without_lidar(bag, config, options);

@@ -25,7 +25,7 @@ struct TopicInfo {
   std::string type;
   std::string frame;  ///< of the first header; empty: no header
   std::uint64_t messages = 0;
-  bool stamped = false;                  ///< the messages have stamps other than zero
+  bool stamped = false;                  ///< the messages have stamps, not all zero or the same
   bool zero_stamps = false;              ///< all stamps are zero: record times serve
   bool same_stamps = false;              ///< all are the same, not zero: likewise
   std::uint64_t unset_record_times = 0;  ///< recorded at time 0

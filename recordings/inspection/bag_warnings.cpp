@@ -115,6 +115,7 @@ bool is_unstamped(const BagInfo& info, const std::string& topic) {
 
 /// Stamps whose clock is not that of the IMU, or without an IMU not the recorder's.
 void warn_of_stamps(const BagInfo& info, const TopicInfo& topic, std::vector<std::string>& out) {
+  if (!info.rates_text.empty()) return;  // no delay corrects it
   const TopicInfo* reference = reference_of(info);
   const bool said =
       is_said(info, topic.topic) || (reference != nullptr && is_said(info, reference->topic));
@@ -170,6 +171,7 @@ void warn_of_times(const BagInfo& info, const TopicInfo& topic, std::vector<std:
 
 /// A different clock shows as a shift between the angular rates.
 void warn_of_clock(const BagInfo& info, const TopicInfo& topic, std::vector<std::string>& out) {
+  if (!info.rates_text.empty()) return;  // no delay corrects it
   // Of clocks that differ by more than the shifts that are tried, a gait has an alias among them.
   if (is_said(info, topic.topic) || is_said(info, info.used.imu)) return;
   if (!topic.clock || std::abs(topic.clock->seconds) < kMaxClockOffset) return;

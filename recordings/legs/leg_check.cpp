@@ -233,7 +233,7 @@ std::vector<std::string> LegCheck::frozen_legs() const {
 bool LegCheck::check_frozen(std::vector<ReadingWarning>& found) const {
   const std::vector<std::string> legs = frozen_legs();
   if (legs.empty() || walked_ < kFewestWindows) return false;
-  found.push_back({"angles of a leg stand still",
+  found.push_back({kAnglesStandStill,
                    fmt::format("the joint angles of {} do not change while the robot walks: the "
                                "driver does not read them, or sends the last ones again",
                                fmt::join(legs, ", ")),
@@ -253,7 +253,7 @@ void LegCheck::check_idle(std::vector<ReadingWarning>& found) const {
     }
   }
   if (feet.empty() || most < kFewestStances) return;
-  found.push_back({"a foot never stands",
+  found.push_back({kFootNeverStands,
                    fmt::format("no contact of {} while the robot walks: is a sensor dead, or the "
                                "load below the threshold (contact_threshold, contacts_field)? Only "
                                "the other feet serve",

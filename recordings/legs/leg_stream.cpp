@@ -70,11 +70,15 @@ void LegStream::check_imu(const ImuSample& sample) {
 }
 
 std::vector<ReadingWarning> LegStream::warnings() const {
-  std::vector<ReadingWarning> found;
-  if (auto rates = rate_check_.warning()) {  // which spoil all that the feet tell
-    found.push_back(std::move(*rates));
-  } else {
-    found = check_.warnings();
+  std::vector<ReadingWarning> found = check_.warnings();
+  if (auto rates = rate_check_.warning()) {
+    // They spoil the velocities of feet that joints tell.
+    if (config_.source == LegSource::kKinematics) {
+      std::erase_if(found, [](const ReadingWarning& each) {
+        return each.reason != kAnglesStandStill && each.reason != kFootNeverStands;
+      });
+    }
+    found.insert(found.begin(), std::move(*rates));
   }
   if (auto twist = twist_check_.warning()) found.push_back(std::move(*twist));
   return found;

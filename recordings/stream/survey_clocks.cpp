@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "recordings/clouds/scan_period.hpp"
-#include "recordings/median.hpp"
 #include "recordings/stream/record_clock.hpp"
 #include "recordings/stream/recording_survey.hpp"
 #include "recordings/stream/survey_latencies.hpp"

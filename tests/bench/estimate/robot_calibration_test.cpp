@@ -108,7 +108,6 @@ TEST(CombinedCalibration, LegsThatNoRobotHasAreNotUsedAndItIsSaid) {
       << warnings[0];
 }
 
-// Their disagreement is in the file; nothing starts from them.
 // Their scale is that of the place where it was found, also where the compliance is known well.
 TEST(CombinedCalibration, TheScaleOfLegsOnSoftJointsIsNotUsed) {
   const auto with_compliance = [](double value, double sigma) {
@@ -130,6 +129,7 @@ TEST(CombinedCalibration, TheScaleOfLegsOnSoftJointsIsNotUsed) {
   }
 }
 
+// Their disagreement is in the file; nothing starts from them.
 TEST(CombinedCalibration, WhatIsOnlyStatedIsNoWarningWhereRunsDisagree) {
   std::vector<CalibrationRun> runs = {run("a", 0.10, 0.01), run("b", 0.20, 0.01)};
   for (CalibrationRun& each : runs) {

@@ -243,6 +243,7 @@ TEST_F(CloudTimes, PointTimesThatTheAzimuthsContradictAreNamed) {
                              " times the true ones"),
                   scale != 1.0)
             << from << ' ' << lost << ' ' << scale;
+        EXPECT_EQ(read.noted("times the true ones"), scale != 1.0) << from << ' ' << scale;
         EXPECT_FALSE(read.noted("run backwards"));
       }
     }
@@ -251,6 +252,8 @@ TEST_F(CloudTimes, PointTimesThatTheAzimuthsContradictAreNamed) {
 
 TEST_F(CloudTimes, PointTimesThatRunBackwardsAreNamedAndAzimuthsMayServe) {
   const Turns backwards = {.scale = -1.0};
+  EXPECT_TRUE(read_turns(bag(), {.scale = -10.0}).noted("'time' falls from point to point"))
+      << "a fraction of the scan";
   EXPECT_TRUE(read_turns(bag(), backwards).noted("'time' falls from point to point of each ring"));
   const auto info = bag_info(bag(), {}, {});
   ASSERT_TRUE(info);
