@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "recordings/legs/joint_rates.hpp"
 #include "recordings/legs/leg_check.hpp"
 #include "recordings/stream/too_short.hpp"
 
