@@ -14,6 +14,11 @@ constexpr Duration kSteady = kSecond / 5;        ///< stamps after a jump agree
 constexpr Duration kLasting = kSecond;           ///< of a jump of all clocks
 constexpr Duration kLastingAlone = 3 * kSecond;  ///< of one that others do not follow
 constexpr Duration kPresent = kSecond;           ///< a topic without messages for longer is absent
+/// For so long the others are waited for where some clocks have jumped: a program that was stopped
+/// gets the backlog of one topic before the rest.
+constexpr Duration kAwaited = 3 * kSecond;
+/// A longer time without any message is one in which nothing was read.
+constexpr Duration kReading = kSecond / 2;
 
 }  // namespace
 
@@ -24,12 +29,14 @@ void ClockWatch::add(const std::string& topic, std::optional<Time> stamp, Time a
         "recording is played again",
         to_seconds(*newest_ - arrival));
   }
+  if (newest_) read_ += std::clamp<Duration>(arrival - *newest_, 0, kReading);
   newest_ = std::max(newest_.value_or(arrival), arrival);
   if (!stamp) return;
   const Duration offset = *stamp - arrival;
   const auto [place, added] = clocks_.try_emplace(topic);
   Clock& clock = place->second;
   clock.seen = arrival;
+  clock.read = read_;
   if (added || *stamp != clock.stamp) clock.stays_since = arrival;
   clock.stamp = *stamp;
   if (added || std::abs(offset - clock.offset) <= kJump) {
@@ -51,7 +58,7 @@ bool ClockWatch::present(const Clock& clock) const { return *newest_ - clock.see
 void ClockWatch::judge() {
   std::vector<std::string> found;
   for (const auto& [topic, clock] : clocks_) {
-    if (!present(clock)) continue;
+    if (read_ - clock.read > kAwaited) continue;
     if (!jumped(clock, kLasting)) return;
     found.push_back(
         fmt::format("{} by {:.1f} s", topic, to_seconds(clock.jumped_to - clock.offset)));

@@ -30,6 +30,7 @@ class ClockWatch {
   struct Clock {
     Duration offset = 0;            ///< of the last stamp over its arrival, without a jump
     Time seen = 0;                  ///< last arrival
+    Duration read = 0;              ///< time read until then
     std::optional<Time> jumped_at;  ///< arrival of the first message of the jump
     Duration jumped_to = 0;         ///< offset since then
     Time stamp = 0;                 ///< the last one
@@ -41,6 +42,7 @@ class ClockWatch {
 
   std::map<std::string, Clock> clocks_;
   std::optional<Time> newest_;  ///< arrival
+  Duration read_ = 0;           ///< time in which messages came
   std::string broken_;
 };
 

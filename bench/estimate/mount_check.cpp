@@ -40,11 +40,23 @@ Eigen::Vector3d gyro_rotation(std::span<const ImuSample> samples, Time begin, Ti
   return sum.norm() > kFullTurns ? sum : so3_log(rotation.normalized());
 }
 
-/// Adds the rotations over intervals of `kInterval` between poses.
+/// The usual time between poses.
+Duration usual_step(const Trajectory& poses) {
+  std::vector<Duration> steps;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    steps.push_back(poses[i].stamp - poses[i - 1].stamp);
+  }
+  return upper_median(steps).value_or(0);
+}
+
+/// Adds the rotations over intervals of `kInterval` between poses without a scan missing in
+/// between: LiDAR odometry, which knows no gyro, may lose a turn there.
 void add_pairs(const Trajectory& poses, std::span<const ImuSample> samples,
                std::vector<RotationPair>& pairs) {
+  const Duration usual = usual_step(poses);
   std::size_t first = 0;
   for (std::size_t i = 1; i < poses.size(); ++i) {
+    if (2 * (poses[i].stamp - poses[i - 1].stamp) > 3 * usual) first = i;
     const Duration step = poses[i].stamp - poses[first].stamp;
     if (step < kInterval) continue;
     RotationPair pair;

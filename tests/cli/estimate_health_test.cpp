@@ -39,7 +39,9 @@ class EstimateHealth : public testing::CommandLine {
   }
 
   /// NAME: walk.bag with changed samples of the IMU, and without a truth.
-  void write_changed(const std::string& name, const std::function<void(ImuSample&)>& change) const {
+  void write_changed(
+      const std::string& name, const std::function<void(ImuSample&)>& change,
+      const std::function<bool(int)>& is_scan_kept = [](int) { return true; }) const {
     auto reader = RecordingReader::open(folder_.path() / "walk.bag", {});
     ASSERT_TRUE(reader) << reader.error().message;
     auto writer = RecordingWriter::create(folder_.path() / name, reader->setup().rig, "");
@@ -47,13 +49,14 @@ class EstimateHealth : public testing::CommandLine {
     std::vector<Delivery> deliveries;
     while (reader->advance(kSecond, deliveries).value_or(false)) {
     }
+    int scans = 0;
     for (Delivery& each : deliveries) {
       if (auto* imu = std::get_if<ImuSample>(&each.measurement)) {
         change(*imu);
         ASSERT_TRUE(writer->write_imu(ImuOutput::kMain, each.arrival, *imu));
       } else if (const auto* legs = std::get_if<LegOdometrySample>(&each.measurement)) {
         ASSERT_TRUE(writer->write_legs(each.arrival, *legs));
-      } else {
+      } else if (is_scan_kept(scans++)) {
         ASSERT_TRUE(writer->write_scan(each.arrival, *std::get<LidarScanPtr>(each.measurement)));
       }
     }
@@ -115,6 +118,19 @@ TEST_F(EstimateHealth, AGyroThatLidarOdometryContradictsIsAWarning) {
     EXPECT_NE(json.find(cause), std::string::npos) << "of which the page is made";
     EXPECT_EQ(holds(outcome, "(LiDAR odometry contradicts the gyro"), scale != 1.0);
   }
+}
+
+// LiDAR odometry, which knows no gyro, may lose the turn there.
+TEST_F(EstimateHealth, CloudsThatAreMissingInATurnSayNothingOfTheGyro) {
+  const Outcome made =
+      aims("simulate " + scenario(kWalkWithTurns) + " --quiet --overwrite --out walk.bag");
+  ASSERT_EQ(made.exit_code, 0) << made.output;
+  write_changed(
+      "changed.bag", [](ImuSample&) {}, [](int i) { return i % 7 < 2; });
+  const Outcome outcome = aims(
+      "estimate changed.bag --estimators lio --no-pictures --no-page --quiet --overwrite --out "
+      "out");
+  EXPECT_FALSE(holds(outcome, "LiDAR odometry and gyro contradict")) << outcome.output;
 }
 
 TEST_F(EstimateHealth, RangesThatLeaveMostReturnsOutAreAWarning) {
