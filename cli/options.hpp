@@ -3,15 +3,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "bench/jobs/job_runner.hpp"
 #include "bench/scenario/catalogue.hpp"
 #include "cli/command.hpp"
-#include "core/config.hpp"
 #include "core/error.hpp"
 
 namespace aims {
