@@ -234,6 +234,12 @@ void warn_of_recorder(EstimateResult& result) {
              "at their stamp and the usual delay",
              late)});
   }
+  if (const int late = count_of(result, "read_late_by_the_recorder"); late > 0) {
+    result.setup.notes.push_back(fmt::format(
+        "{} messages are recorded more than 5 s after their stamp and the usual delay, later ones "
+        "less: the recorder was stopped or too slow; they arrive at their stamp and that delay",
+        late));
+  }
   if (result.summary.lost_bytes > 0) {
     result.setup.warnings.push_back(
         {"parts of the recording are lost",

@@ -4,43 +4,58 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "core/time.hpp"
 
 namespace aims {
 
-/// Counts the messages of a topic that were not recorded, by gaps in its stamps.
+/// Counts the messages of a topic that did not come, by gaps of any length in its stamps.
 class MissingMessages {
  public:
+  static constexpr Duration kLong = 10 * kSecond;  ///< of gaps that are named
+
   void add(Time stamp, Time recorded, Duration period) {
     const Duration step = stamp - stamp_, waited = recorded - recorded_;
+    const std::int64_t unusable = std::exchange(unusable_, 0);
     const bool first = received_++ == 0;
     stamp_ = stamp;
     recorded_ = recorded;
-    // Where stamps alone go on, or for long, it is no loss.
-    if (first || period <= 0 || step <= 0 || step > kLongest || 2 * waited < step) return;
+    // Where stamps alone go on, it is no loss.
+    if (first || period <= 0 || step <= 0 || 2 * waited < step) return;
     const double periods = static_cast<double>(step) / static_cast<double>(period);
-    periods_ += periods;
+    const double gap = std::max(0.0, std::round(periods) - 1.0);
+    const double came = std::min(static_cast<double>(unusable), gap);
+    periods_ += periods - came;
+    received_ += static_cast<std::int64_t>(came);
     ++steps_;
-    if (periods <= kGap) return;
+    if (periods <= kGap || came == gap) return;
     ++gaps_;
-    in_gaps_ += std::round(periods) - 1.0;
+    in_gaps_ += gap - came;
+    if (step > kLong) in_long_gaps_ += gap - came;
+    longest_ = std::max(longest_, step);
   }
+
+  /// A message came, but there is nothing in it to read: it has another count.
+  void add_unusable() { ++unusable_; }
 
   /// Short steps make up for long ones of messages that jitter.
   std::int64_t count() const {
     return std::llround(std::max(0.0, std::min(in_gaps_, periods_ - static_cast<double>(steps_))));
   }
+  /// Of these, in gaps longer than `kLong`.
+  std::int64_t in_long_gaps() const { return std::llround(in_long_gaps_); }
   std::int64_t received() const { return received_; }
   std::int64_t gaps() const { return gaps_; }
+  Duration longest() const { return longest_; }
 
  private:
-  static constexpr Duration kLongest = 10 * kSecond;
   static constexpr double kGap = 1.5;  ///< periods
 
   Time stamp_ = 0, recorded_ = 0;
-  std::int64_t received_ = 0, steps_ = 0, gaps_ = 0;
-  double periods_ = 0.0, in_gaps_ = 0.0;
+  std::int64_t received_ = 0, unusable_ = 0, steps_ = 0, gaps_ = 0;
+  double periods_ = 0.0, in_gaps_ = 0.0, in_long_gaps_ = 0.0;
+  Duration longest_ = 0;
 };
 
 }  // namespace aims

@@ -16,6 +16,7 @@
 #include "recordings/source/decided_start.hpp"
 #include "recordings/source/rated_source.hpp"
 #include "recordings/source/recording_file.hpp"
+#include "recordings/stream/late_messages.hpp"
 #include "recordings/stream/latency_trend.hpp"
 #include "recordings/stream/record_clock.hpp"
 #include "recordings/stream/recording_plan.hpp"
@@ -30,9 +31,6 @@ namespace {
 /// Limits of one call of `advance`, for many messages at one instant.
 constexpr std::size_t kMaxDeliveries = 100'000;
 constexpr std::size_t kMaxBytes = std::size_t{256} << 20;
-/// A message that is recorded so long after its stamp and latency was recorded by a clock that
-/// leapt.
-constexpr Duration kMaxLate = 5 * kSecond;
 /// Of a stamp 0 from the time at which its message was recorded, by the clock of the sensor.
 constexpr Duration kMaxUnset = kSecond;
 constexpr std::size_t kMaxHeldBytes = std::size_t{256} << 20;
@@ -93,9 +91,12 @@ struct RecordingReader::Impl {
   void take_truth(const MessageView& view);
   void deliver(Role role, Measurement measurement, Time stamp, std::vector<Delivery>& out);
   void deliver(std::optional<LegOdometrySample> sample, std::vector<Delivery>& out);
-  void malformed(Role role) { ++counts[std::string(name_of(role)) + "_malformed"]; }
+  void malformed(Role role);
+  void count_late();
+  void leave_out(const Channel& channel);
   Time stamp_of(Role role, Time stamp, double delay) const;
   Duration period_of(Role role) const;
+  bool legs_by_joints() const { return plan.setup.topics.leg_odometry.empty(); }
   void warn_of_missing(Role role);
   void find_leap(const BagMessage& message, const Channel& channel, const MessageView& view);
   void note_latency(const BagMessage& message, const Channel& channel, const MessageView& view);
@@ -125,6 +126,7 @@ struct RecordingReader::Impl {
   std::array<std::optional<Time>, kRoleCount> last_stamps;
   std::array<std::string, kRoleCount> frames;  ///< of the first messages
   std::array<MissingMessages, kRoleCount> missing;
+  std::array<LateMessages, kRoleCount> late_messages;
   std::array<LatencyTrend, kRoleCount> trends;
   SteadyTopic steady_imu;
   std::array<StampLeaps, kRoleCount> leaps;
@@ -164,6 +166,23 @@ void RecordingReader::Impl::deliver(std::optional<LegOdometrySample> sample,
   if (!finite) ++counts["legs_not_finite"];
   const Time stamp = sample->stamp;
   deliver(Role::kLegs, *std::move(sample), stamp, out);
+}
+
+void RecordingReader::Impl::malformed(Role role) {
+  ++counts[std::string(name_of(role)) + "_malformed"];
+  // Of legs by joints, the periods are those of the joints.
+  const Role counted = role == Role::kJoints && legs_by_joints() ? Role::kLegs : role;
+  missing[static_cast<std::size_t>(counted)].add_unusable();
+}
+
+/// Counts a message of which nothing is read as one that came.
+void RecordingReader::Impl::leave_out(const Channel& channel) {
+  for (std::size_t i = 0; i < kRoleCount; ++i) {
+    if (channel.serves[i]) missing[i].add_unusable();
+  }
+  if (channel.is(Role::kJoints) && legs_by_joints()) {
+    missing[static_cast<std::size_t>(Role::kLegs)].add_unusable();
+  }
 }
 
 /// Warns where the clouds come in another frame than the first ones.
@@ -212,6 +231,9 @@ void RecordingReader::Impl::take_cloud(const MessageView& view, std::vector<Deli
   table->stamp = stamp_of(Role::kLidar, table->stamp, 0.0);
   watch_repeats(*table);
   auto read = read_scan(*table);
+  if (!read && plan.cloud.parts.count == 1) {
+    missing[static_cast<std::size_t>(Role::kLidar)].add_unusable();
+  }
   if (!read) return;
   auto scan = std::make_shared<LidarScan>(std::move(*read));
   const Duration delay = from_seconds(config.lidar_delay);
@@ -379,15 +401,30 @@ Time RecordingReader::Impl::due(const BagMessage& message, const Channel& channe
   return recorded + early + plan.wait[*role];
 }
 
-/// When a message was recorded. Where the recorder's clock was set forward, that is the usual
-/// latency after its stamp; arrivals never go back.
+/// When a message was recorded. Where the recorder's clock was set forward, or it read on late,
+/// that is the usual latency after its stamp; arrivals never go back.
 Time RecordingReader::Impl::arrival(const BagMessage& message, const Channel& channel,
                                     const MessageView& view) {
   const auto role = first_role(channel);
-  const Duration late = role ? lateness(message, *role, view).value_or(0) : 0;
-  if (late < kMaxLate) return message.record_time;
-  ++counts["recorded_long_after_their_stamp"];
-  return std::max(record_time, message.record_time - late);
+  const auto late = role ? lateness(message, *role, view) : std::nullopt;
+  if (!late) return message.record_time;
+  if (late_messages[*role].add(*late, message.record_time)) count_late();
+  if (*late < LateMessages::kLate) return message.record_time;
+  return std::max(record_time, message.record_time - *late);
+}
+
+void RecordingReader::Impl::count_late() {
+  int by_clock = 0, read_late = 0;
+  for (const LateMessages& each : late_messages) {
+    by_clock += each.by_clock();
+    read_late += each.read_late();
+  }
+  const auto set = [this](const char* what, int count) {
+    if (count > 0) counts[what] = count;
+    if (count == 0) counts.erase(what);
+  };
+  set("recorded_long_after_their_stamp", by_clock);
+  set("read_late_by_the_recorder", read_late);
 }
 
 /// Keeps a message that is not yet due.
@@ -448,7 +485,7 @@ void RecordingReader::Impl::receive(const BagMessage& given, std::vector<Deliver
   }
   if (unset) {
     ++counts["stamp_not_set"];
-    return;
+    return leave_out(*channel);
   }
   if (!hold(message, *channel, *view)) take(*channel, *view, out);
 }
@@ -471,12 +508,11 @@ Duration RecordingReader::Impl::period_of(Role role) const {
 /// Warns of many messages that were not recorded.
 void RecordingReader::Impl::warn_of_missing(Role role) {
   const MissingMessages& each = missing[static_cast<std::size_t>(role)];
-  const auto unset = counts.find("stamp_not_set");
-  const auto lost = many_missing(role, each, unset == counts.end() ? 0 : unset->second);
+  const auto lost = many_missing(role, each);
   if (!lost) return;
   counts[fmt::format("{}_messages_missing", name_of(role))] = static_cast<int>(*lost);
   const TopicsConfig& topics = plan.setup.topics;
-  const bool by_joints = role == Role::kLegs && topics.leg_odometry.empty();
+  const bool by_joints = role == Role::kLegs && legs_by_joints();
   plan.setup.warnings.push_back(warning_of_missing(
       role, by_joints ? topics.joint_states : topic_of(topics, role), *lost, each));
 }

@@ -14,24 +14,31 @@ constexpr int kFewGaps = 5;  ///< that are pauses of a sensor
 
 }  // namespace
 
-std::optional<double> many_missing(Role role, const MissingMessages& messages, int left_out) {
-  const auto missing = static_cast<double>(messages.count() - left_out);
+std::optional<double> many_missing(Role role, const MissingMessages& messages) {
+  const auto missing = static_cast<double>(messages.count());
   const double all = missing + static_cast<double>(messages.received());
   const double few = role == Role::kLegs ? kFewLegsMissing : kFewMissing;
-  if (missing <= few * all || messages.gaps() < kFewGaps) return std::nullopt;
+  const bool pauses = messages.gaps() < kFewGaps && messages.in_long_gaps() == 0;
+  if (missing <= few * all || pauses) return std::nullopt;
   return missing;
 }
 
 ReadingWarning warning_of_missing(Role role, const std::string& topic, double missing,
                                   const MissingMessages& messages) {
   const double all = missing + static_cast<double>(messages.received());
+  const std::string in_long_gaps =
+      messages.in_long_gaps() == 0
+          ? ""
+          : fmt::format(", {} of them in gaps of more than {:.0f} s, the longest of {:.1f} s",
+                        messages.in_long_gaps(), to_seconds(MissingMessages::kLong),
+                        to_seconds(messages.longest()));
   const WarnedSensor sensor = role == Role::kLidar  ? WarnedSensor::kLidar
                               : role == Role::kLegs ? WarnedSensor::kLegs
                                                     : WarnedSensor::kAny;
   return {fmt::format("messages of the {} are missing", name_of(role)),
           fmt::format("{}: {:.0f} of {:.0f} messages are missing, by the gaps in their stamps "
-                      "({:.1f} %): the network, the recorder or the driver lost them",
-                      topic, missing, all, 1e2 * missing / all),
+                      "({:.1f} %){}: the network, the recorder or the driver lost them",
+                      topic, missing, all, 1e2 * missing / all, in_long_gaps),
           sensor};
 }
 

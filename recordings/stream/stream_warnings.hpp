@@ -12,9 +12,8 @@
 
 namespace aims {
 
-/// The messages of a sensor that are missing, where they are so many that an estimate suffers;
-/// `left_out` of them came, without a stamp.
-std::optional<double> many_missing(Role role, const MissingMessages& messages, int left_out);
+/// The messages of a sensor that are missing, where they are so many that an estimate suffers.
+std::optional<double> many_missing(Role role, const MissingMessages& messages);
 
 ReadingWarning warning_of_missing(Role role, const std::string& topic, double missing,
                                   const MissingMessages& messages);

@@ -747,6 +747,46 @@ TEST_F(RecordingReaderTest, MissingMessagesAreCountedAndNamed) {
   EXPECT_FALSE(read(200).noted("are missing")) << "a few";
 }
 
+TEST_F(RecordingReaderTest, MessagesOfLongGapsAreMissingToo) {
+  // In 100 s, the LiDAR is silent for 3, 12 and 20 s.
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  robot.add_imu(kStart, 5000);
+  for (int k = 0; k < 1000; ++k) {
+    if ((k >= 200 && k < 230) || (k >= 400 && k < 520) || (k >= 700 && k < 900)) continue;
+    const Time stamp = kStart + k * 100 * kMillisecond;
+    robot.add_cloud(RawCloud::of(stamp, {{1, 2, 0, 0}, {2, 1, 1, 0.09F}}),
+                    stamp + 101 * kMillisecond);
+  }
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  EXPECT_TRUE(
+      read.noted("/points: 350 of 1000 messages are missing, by the gaps in their stamps "
+                 "(35.0 %), 320 of them in gaps of more than 10 s, the longest of 20.1 s"));
+  EXPECT_EQ(read.counts.at("lidar_messages_missing"), 350);
+}
+
+TEST_F(RecordingReaderTest, CloudsOfWhichNothingIsReadAreNotMissing) {
+  // Of 100 clouds, ten are malformed, ten have no point, ten do not come.
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  robot.add_imu(kStart, 500);
+  for (int k = 0; k < 100; ++k) {
+    if (k % 10 == 3) continue;
+    const Time stamp = kStart + k * 100 * kMillisecond;
+    RawCloud cloud = RawCloud::of(stamp, {{1, 2, 0, 0}, {2, 1, 1, 0.09F}});
+    if (k % 10 == 5) cloud.point_step = 0;
+    if (k % 10 == 7) cloud = RawCloud::of(stamp, {});
+    robot.add_cloud(cloud, stamp + 101 * kMillisecond);
+  }
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  EXPECT_EQ(read.counts.at("lidar_malformed"), 10);
+  EXPECT_EQ(read.counts.at("cloud_empty"), 10);
+  EXPECT_EQ(read.counts.at("lidar_messages_missing"), 10);
+  EXPECT_TRUE(read.noted("/points: 10 of 100 messages are missing"));
+}
+
 // The survey sees the first 100 clouds.
 TEST_F(RecordingReaderTest, StampsOfOneTopicThatLeapAreNamed) {
   const Recording read = read_with_times(bag(), [](bool cloud, Time& stamp, Time&) {
@@ -802,6 +842,20 @@ TEST_F(RecordingReaderTest, ARecorderThatIsSetForwardMovesNoArrival) {
     ASSERT_LT(each.arrival, kLeap + 4 * kSecond);
   }
   EXPECT_EQ(test::imu_of(read.deliveries).size(), 300U);
+}
+
+TEST_F(RecordingReaderTest, ARecorderThatWasStoppedIsNoClockThatWasSet) {
+  // What it had not read comes at once, when it goes on after nine seconds.
+  constexpr Time kGoesOn = kLeap + 9 * kSecond;
+  const auto stopped = [](bool, Time& stamp, Time& recorded) {
+    if (recorded < kLeap || recorded >= kGoesOn) return;
+    recorded = kGoesOn + (stamp - kLeap) / 1000;
+  };
+  const Recording read = read_with_times(bag(), stopped, 900);
+  EXPECT_FALSE(read.counts.contains("recorded_long_after_their_stamp"));
+  EXPECT_GT(read.counts.at("read_late_by_the_recorder"), 200);
+  EXPECT_FALSE(read.noted("leap"));
+  EXPECT_EQ(test::imu_of(read.deliveries).size(), 900U);
 }
 
 TEST_F(RecordingReaderTest, OneMessageOfTheFutureMovesNoArrival) {
