@@ -29,6 +29,14 @@ void print_counts(const std::map<std::string, int>& counts) {
 
 }  // namespace
 
+void print_missed(const MissedMessages& missed, const std::string& of) {
+  const auto print = [&of](std::size_t count, const char* what) {
+    if (count > 0) print_line(fmt::format("note: {} messages {}{}", count, what, of));
+  };
+  print(missed.dropped, "dropped, since the node was too slow");
+  print(missed.lost, "lost by the network");
+}
+
 LiveEstimate::LiveEstimate(Transport& transport, Publications& publications,
                            RecordingReader& reader, Estimator& estimator, LiveLog log,
                            LiveStart start)
@@ -41,7 +49,7 @@ LiveEstimate::LiveEstimate(Transport& transport, Publications& publications,
       start_(std::move(start)),
       moved_(start_.T_odom_start.translation.norm() > 0.0 ||
              start_.T_odom_start.rotation.vec().norm() > 0.0),
-      dropped_(transport.dropped()),
+      dropped_(missed().dropped),
       read_warnings_(reader.setup().warnings.size()) {}
 
 Result<void> LiveEstimate::run() {
@@ -134,7 +142,7 @@ void LiveEstimate::warn_of_changes() {
   for (; read_warnings_ < warnings.size(); ++read_warnings_) {
     const ReadingWarning& found = warnings[read_warnings_];
     // Clouds that were dropped here are named where that happens.
-    const bool named = transport_.dropped() > 0 && found.sensor == WarnedSensor::kLidar &&
+    const bool named = missed().dropped > 0 && found.sensor == WarnedSensor::kLidar &&
                        found.reason.starts_with("messages of the ");
     if (start_.concerns(found) && !named) warn(found);
   }
@@ -152,7 +160,7 @@ void LiveEstimate::warn_of_file(const Result<void>& state, const char* reason) {
 /// Messages that were dropped leave gaps, which the estimator takes for silent sensors: names the
 /// cause instead.
 void LiveEstimate::name_overload(HealthRow& row) {
-  const std::size_t dropped = transport_.dropped();
+  const std::size_t dropped = missed().dropped;
   if (std::exchange(dropped_, dropped) != dropped) since_dropped_ = Stopwatch();
   if (!since_dropped_ || since_dropped_->seconds() > kOverload) return;
   std::erase_if(row.reasons, [](const std::string& each) { return each.starts_with("no "); });
@@ -162,14 +170,14 @@ void LiveEstimate::name_overload(HealthRow& row) {
 }
 
 /// What node and reading know.
-std::vector<std::string> LiveEstimate::reasons_of_node() const {
+std::vector<std::string> LiveEstimate::reasons_of_node() {
   std::vector<std::string> reasons = start_.clocks->differing();
   for (const ReadingWarning& each : start_.warnings) reasons.push_back(each.reason);
   const TopicsConfig& topics = reader_.setup().topics;
-  for (const std::string& topic : std::set{topics.lidar, topics.imu, topics.leg_odometry,
-                                           topics.joint_states, topics.contacts}) {
-    const std::size_t count = transport_.publishers(topic);
-    if (count > 1) reasons.push_back(fmt::format("{} has {} publishers", topic, count));
+  const std::set used = {topics.lidar, topics.imu, topics.leg_odometry, topics.joint_states,
+                         topics.contacts};
+  for (const auto& [topic, count] : transport_.take_doubled()) {
+    if (used.contains(topic)) reasons.push_back(fmt::format("{} has {} publishers", topic, count));
   }
   return reasons;
 }
@@ -178,8 +186,10 @@ std::vector<std::string> LiveEstimate::reasons_of_node() const {
 void LiveEstimate::publish_health(std::vector<HealthRow>& rows) {
   for (HealthRow& row : rows) {
     name_overload(row);
-    const std::vector<std::string> reasons = reasons_of_node();
-    if (row.state != HealthState::kStarting && !reasons.empty()) {
+    // What is found meanwhile is in the first row behind the start.
+    const bool starting = row.state == HealthState::kStarting;
+    const auto reasons = starting ? std::vector<std::string>() : reasons_of_node();
+    if (!reasons.empty()) {
       row.state = std::max(row.state, HealthState::kDegraded);
       row.reasons.insert(row.reasons.end(), reasons.begin(), reasons.end());
     }
@@ -192,8 +202,8 @@ void LiveEstimate::publish_health(std::vector<HealthRow>& rows) {
 void LiveEstimate::publish(const HealthRow& row) {
   const auto [scans, samples] = timing_.rates();
   std::vector<std::pair<std::string, std::string>> figures = {
-      {"messages dropped", fmt::format("{}", transport_.dropped())},
-      {"messages lost", fmt::format("{}", transport_.lost())},
+      {"messages dropped", fmt::format("{}", missed().dropped)},
+      {"messages lost", fmt::format("{}", missed().lost)},
       {"last warning of the network", warning_},
       {"scans per second", fmt::format("{:.1f}", scans)},
       {"IMU samples per second", fmt::format("{:.0f}", samples)},
@@ -274,11 +284,7 @@ void LiveEstimate::save_map() {
 void LiveEstimate::print_summary(bool source_time) const {
   print_counts(reader_.counts());
   print_counts(estimator_.result().counts);
-  const std::size_t dropped = transport_.dropped();
-  if (dropped > 0)
-    print_line(fmt::format("note: {} messages dropped, since the node was too slow", dropped));
-  const std::size_t lost = transport_.lost();
-  if (lost > 0) print_line(fmt::format("note: {} messages lost by the network", lost));
+  print_missed(missed(), "");
   print_line(fmt::format("{} poses", poses_));
   if (source_time || timing_.scans() == 0) return;
   print_line(fmt::format("from the arrival of a scan to its odometry: median {} ms, 99 % {} ms",

@@ -29,9 +29,13 @@ struct LiveStart {
   const Recorder* recorder = nullptr;    ///< of its topics
   std::vector<ReadingWarning> warnings;  ///< their reasons are in its health
   bool standing = false;                 ///< the robot should stand: motion is a warning
+  MissedMessages missed;                 ///< before it
   /// Whether a warning found later concerns the estimator.
   std::function<bool(const ReadingWarning&)> concerns;
 };
+
+/// Prints what was missed; `of`: by which parts.
+void print_missed(const MissedMessages& missed, const std::string& of);
 
 /// One estimator on live topics, from its start to its end: it publishes, prints and logs.
 class LiveEstimate {
@@ -53,6 +57,9 @@ class LiveEstimate {
   /// The last pose, as published; none: nothing.
   const std::optional<StampedPose>& last() const { return last_; }
 
+  /// What it missed, of this part alone.
+  MissedMessages missed() const { return transport_.missed() - start_.missed; }
+
   /// Prints what was odd, and how long scans took unless `source_time`.
   void print_summary(bool source_time) const;
 
@@ -68,7 +75,7 @@ class LiveEstimate {
   void warn_of_changes();
   void warn_of_file(const Result<void>& state, const char* reason);
   void name_overload(HealthRow& row);
-  std::vector<std::string> reasons_of_node() const;
+  std::vector<std::string> reasons_of_node();
   void publish_health(std::vector<HealthRow>& rows);
   void publish(const HealthRow& row);
   void publish_points(Time stamp);

@@ -80,10 +80,12 @@ class Session {
   Result<void> run() {
     for (int part = 1;; ++part) {
       ClockWatch clocks;
-      if (auto done = estimate(part, clocks); !done) return done;
-      if (!transport_.running()) return {};
+      const auto done = estimate(part, clocks);
       const auto request = commands_.take_restart();
-      if (!request && clocks.broken().empty()) return {};
+      if (!done || !transport_.running() || (!request && clocks.broken().empty())) {
+        if (part > 1) print_missed(transport_.missed(), fmt::format(", in all {} parts", part));
+        return done;
+      }
       start_anew(request, clocks.broken());
     }
   }
@@ -103,6 +105,7 @@ class Session {
 
   Result<void> estimate(int part, ClockWatch& clocks) {
     const std::string name = label_of(options_.estimator);
+    const MissedMessages missed_before = transport_.missed();
     auto log = LiveLog::create(folder_of(part), name);
     if (!log) return tl::unexpected(log.error());
     auto recorder = Recorder::create(record_of(part), transport_.format());
@@ -125,6 +128,7 @@ class Session {
     auto opened = open_live_recording(transport_, commands_, live);
     if (!opened || !*opened) {
       const auto recorded = recorder->close();
+      print_missed(transport_.missed() - missed_before, "");
       if (opened) return recorded;
       if (!recorded) print_line("warning: " + recorded.error().message);
       return tl::unexpected(opened.error());
@@ -139,7 +143,7 @@ class Session {
     print_line(
         fmt::format("{} publishes {}", options_.estimator, transport_.resolved("~odometry")));
     LiveEstimate running(transport_, publications_, *reader, **estimator, std::move(*log),
-                         {T_odom_start_, &clocks, &*recorder, warnings, part > 1,
+                         {T_odom_start_, &clocks, &*recorder, warnings, part > 1, missed_before,
                           [&](const ReadingWarning& each) { return concerns(config_, each); }});
     commands_.on_save_map([&] { running.save_map(); });
     commands_.on_silence([&](double seconds) { running.tell_silence(seconds); });

@@ -19,6 +19,16 @@ inline std::string diagnostics_name(const std::string& odometry) {
   return odometry.substr(1, odometry.rfind('/') - 1) + ": localization";
 }
 
+/// Messages of which nothing is read.
+struct MissedMessages {
+  std::size_t dropped = 0;  ///< since the node was too slow
+  std::size_t lost = 0;     ///< by the network
+
+  MissedMessages operator-(const MissedMessages& before) const {
+    return {dropped - before.dropped, lost - before.lost};
+  }
+};
+
 /// A node of a network that receives and publishes messages of any type, as bytes. There is one in
 /// a process: it takes the signals that end a program.
 class Transport {
@@ -50,14 +60,11 @@ class Transport {
   /// The next message in order of arrival; nothing after `seconds`, or when the node ends.
   virtual std::optional<LiveMessage> wait(double seconds);
 
-  /// Messages dropped so far, since the node was too slow.
-  std::size_t dropped() const { return inbox_.dropped(); }
+  /// Messages that were dropped so far, or lost, as far as it knows.
+  MissedMessages missed() const { return {inbox_.dropped(), lost()}; }
 
-  /// Messages that the network lost so far, as far as it knows.
-  virtual std::size_t lost() const { return 0; }
-
-  /// Publishers of a topic, as far as it knows.
-  virtual std::size_t publishers(const std::string& /*topic*/) const { return 1; }
+  /// Topics that several nodes publish, or did since the last call, and how many.
+  virtual std::map<std::string, std::size_t> take_doubled() { return {}; }
 
   /// The longest time for which a cloud may wait from now on.
   void limit_wait(Duration longest) { inbox_.limit_wait(longest); }
@@ -75,6 +82,8 @@ class Transport {
 
  protected:
   Transport();
+
+  virtual std::size_t lost() const { return 0; }
 
   /// Keeps a problem for `take_problems`; each once.
   void tell(std::string problem);

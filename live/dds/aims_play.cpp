@@ -17,6 +17,7 @@
 #include "live/program.hpp"
 #include "recordings/messages/ros2_definition.hpp"
 #include "recordings/source/conversion.hpp"
+#include "recordings/source/decided_start.hpp"
 #include "recordings/source/recording_file.hpp"
 
 namespace aims {
@@ -150,6 +151,8 @@ Result<void> announce(MessageSource& recording, PacedSink& sink,
   std::vector<std::string> playable;
   for (const BagConnection& each : recording.connections()) {
     if (!topics.empty() && std::ranges::find(topics, each.topic) == topics.end()) continue;
+    // What marks the record of a live estimate: nobody would subscribe.
+    if (each.topic == kDecidedTopic || each.topic == kForgottenTopic) continue;
     const auto type = playable_type(each);
     if (!type) {
       warn(fmt::format("not played: {}: {}", each.topic, type.error().message));

@@ -44,10 +44,7 @@ class DdsTransport final : public Transport {
   void subscribe(const std::string& topic, const std::string& type) override;
   void unsubscribe(const std::string& topic) override;
   std::optional<LiveMessage> wait(double seconds) override;
-  std::size_t lost() const override { return lost_; }
-  std::size_t publishers(const std::string& topic) const override {
-    return discovery_.publishers(topic);
-  }
+  std::map<std::string, std::size_t> take_doubled() override { return discovery_.take_doubled(); }
   std::size_t advertise(const std::string& topic, const MessageType& type, bool latching) override;
   bool heard(std::size_t publisher) const override { return subscribers(publisher) > 0; }
   void publish(std::size_t publisher, std::span<const std::byte> data) override;
@@ -61,6 +58,8 @@ class DdsTransport final : public Transport {
   std::size_t wait_for_subscribers(double seconds) const;
 
  private:
+  std::size_t lost() const override { return lost_; }
+
   using Entity = std::int32_t;  ///< of DDS
   /// One topic of which this node receives messages.
   struct Subscription {

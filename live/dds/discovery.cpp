@@ -52,10 +52,12 @@ void Discovery::update() {
   std::array<void*, kBatch> samples{};
   std::array<dds_sample_info_t, kBatch> infos{};
   int count = 0;
+  std::map<std::uint64_t, Offer> came;
   while ((count = dds_take(reader_, samples.data(), infos.data(), kBatch, kBatch)) > 0) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       if (!infos[i].valid_data || infos[i].instance_state != DDS_IST_ALIVE) {
         offers_.erase(infos[i].instance_handle);
+        came.erase(infos[i].instance_handle);
         continue;
       }
       const auto& endpoint = *static_cast<const dds_builtintopic_endpoint_t*>(samples[i]);
@@ -63,10 +65,17 @@ void Discovery::update() {
       const auto topic = ros_topic(endpoint.topic_name);
       const auto type = ros_type(endpoint.type_name);
       if (!topic || !type) continue;
-      offers_[infos[i].instance_handle] = {*topic, *type, aims::quality_of(endpoint.qos),
-                                           began(endpoint.qos)};
+      came[infos[i].instance_handle] = {*topic, *type, aims::quality_of(endpoint.qos),
+                                        began(endpoint.qos)};
     }
     dds_return_loan(reader_, samples.data(), count);
+  }
+  // Those that went are gone by now: a driver that restarts is not there twice.
+  for (auto& [instance, offer] : came) {
+    const std::string& topic = (offers_[instance] = std::move(offer)).topic;
+    if (const std::size_t all = publishers(topic); all > 1) {
+      doubled_[topic] = std::max(doubled_[topic], all);
+    }
   }
 }
 
@@ -86,6 +95,13 @@ std::string Discovery::other_type(const std::string& topic, const std::string& t
 std::size_t Discovery::publishers(const std::string& topic) const {
   return static_cast<std::size_t>(std::ranges::count_if(
       offers_, [&](const auto& offer) { return offer.second.topic == topic; }));
+}
+
+std::map<std::string, std::size_t> Discovery::take_doubled() {
+  auto found = doubled_;
+  for (auto& [topic, count] : doubled_) count = publishers(topic);
+  std::erase_if(doubled_, [](const auto& each) { return each.second < 2; });
+  return found;
 }
 
 Time Discovery::oldest(const std::string& topic) const {

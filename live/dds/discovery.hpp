@@ -36,6 +36,9 @@ class Discovery {
   /// How many publish the topic.
   std::size_t publishers(const std::string& topic) const;
 
+  /// Topics that several publish, or did since the last call, and how many.
+  std::map<std::string, std::size_t> take_doubled();
+
   /// When the first node that publishes the topic began, by its own word; 0: before all others,
   /// where it does not say so. The end of time where none publishes it.
   Time oldest(const std::string& topic) const;
@@ -53,7 +56,8 @@ class Discovery {
 
   std::int32_t reader_ = 0;
   std::array<std::uint8_t, 16> own_{};
-  std::map<std::uint64_t, Offer> offers_;  ///< by instance
+  std::map<std::uint64_t, Offer> offers_;       ///< by instance
+  std::map<std::string, std::size_t> doubled_;  ///< topics of several, and how many
 };
 
 }  // namespace aims
