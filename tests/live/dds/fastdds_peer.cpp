@@ -5,12 +5,16 @@
 //     ends. DURABILITY: volatile or transient.
 //   fastdds_peer odometry DOMAIN TOPIC
 //     prints each nav_msgs/Odometry in one line, read by Fast-CDR.
+//   fastdds_peer clouds DOMAIN TOPIC COUNT RETURNS RELIABILITY
+//     sends so many sensor_msgs/PointCloud2 at 10 Hz, once somebody listens. RELIABILITY: reliable
+//     or best_effort.
 #include <fastcdr/Cdr.h>
 #include <fastcdr/FastBuffer.h>
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
@@ -90,9 +94,10 @@ fast::Topic* topic(fast::DomainParticipant* node, const std::string& name,
 }
 
 template <class Qos>
-Qos quality(bool transient) {
+Qos quality(bool transient, bool reliable = true) {
   Qos qos;
-  qos.reliability().kind = fast::RELIABLE_RELIABILITY_QOS;
+  qos.reliability().kind =
+      reliable ? fast::RELIABLE_RELIABILITY_QOS : fast::BEST_EFFORT_RELIABILITY_QOS;
   qos.durability().kind =
       transient ? fast::TRANSIENT_LOCAL_DURABILITY_QOS : fast::VOLATILE_DURABILITY_QOS;
   qos.history().kind = fast::KEEP_LAST_HISTORY_QOS;
@@ -125,25 +130,34 @@ void listen(fast::DomainParticipant* node, fast::Topic* on, bool transient, Rece
                                 new Listener(std::move(receiver)));
 }
 
+fast::DataWriter* writer_of(fast::DomainParticipant* node, fast::Topic* on, bool transient,
+                            bool reliable = true) {
+  auto qos = quality<fast::DataWriterQos>(transient, reliable);
+  qos.publish_mode().kind = fast::ASYNCHRONOUS_PUBLISH_MODE;  // large samples are sent in fragments
+  return node->create_publisher(fast::PUBLISHER_QOS_DEFAULT)->create_datawriter(on, qos);
+}
+
+void wait_for_subscriber(fast::DataWriter* writer) {
+  fast::PublicationMatchedStatus status;
+  while (writer->get_publication_matched_status(status), status.current_count == 0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+}
+
 /// Subscribes once somebody listens behind the relay, so that nothing is lost there.
 std::thread relay(fast::DomainParticipant* from, fast::DomainParticipant* to,
                   const std::string& name, const std::string& type, bool transient) {
-  auto qos = quality<fast::DataWriterQos>(transient);
-  qos.publish_mode().kind = fast::ASYNCHRONOUS_PUBLISH_MODE;  // large samples are sent in fragments
-  fast::DataWriter* writer = to->create_publisher(fast::PUBLISHER_QOS_DEFAULT)
-                                 ->create_datawriter(topic(to, name, type), qos);
+  fast::DataWriter* writer = writer_of(to, topic(to, name, type), transient);
   const auto pass_on = [writer](const Bytes& bytes, const fast::SampleInfo& info) {
     Bytes copy = bytes;
     const std::int64_t sent = info.source_timestamp.to_ns();
     const eprosima::fastrtps::Time_t time(static_cast<std::int32_t>(sent / 1'000'000'000),
                                           static_cast<std::uint32_t>(sent % 1'000'000'000));
-    writer->write_w_timestamp(&copy, rtps::c_InstanceHandle_Unknown, time);
+    const auto code = writer->write_w_timestamp(&copy, rtps::c_InstanceHandle_Unknown, time);
+    if (code != ReturnCode_t::RETCODE_OK) std::cerr << "not passed on\n";
   };
   return std::thread([=] {
-    fast::PublicationMatchedStatus status;
-    while (writer->get_publication_matched_status(status), status.current_count == 0) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    }
+    wait_for_subscriber(writer);
     listen(from, topic(from, name, type), transient, pass_on);
   });
 }
@@ -170,6 +184,50 @@ void print_odometry(const Bytes& bytes) {
   std::fflush(stdout);
 }
 
+/// A cloud of returns around the sensor: x, y, z (float32) in 32 bytes, as drivers pad them.
+Bytes cloud(std::uint32_t returns, std::int64_t stamp) {
+  constexpr std::uint32_t kStep = 32;
+  constexpr float kTurn = 6.2831853F;
+  constexpr std::uint8_t kFloat = 7;
+  std::vector<std::uint8_t> data(std::size_t{returns} * kStep);
+  for (std::uint32_t i = 0; i < returns; ++i) {
+    const float angle = kTurn * static_cast<float>(i) / static_cast<float>(returns);
+    const float range = 5.0F + 1e-10F * static_cast<float>(stamp % 10'000'000'000);
+    const std::array<float, 3> p = {range * std::cos(angle), range * std::sin(angle), 0.5F};
+    std::memcpy(data.data() + std::size_t{i} * kStep, p.data(), sizeof(p));
+  }
+  eprosima::fastcdr::FastBuffer buffer;
+  eprosima::fastcdr::Cdr cdr(buffer, eprosima::fastcdr::Cdr::DEFAULT_ENDIAN,
+                             eprosima::fastcdr::Cdr::DDS_CDR);
+  cdr.serialize_encapsulation();
+  cdr << static_cast<std::int32_t>(stamp / 1'000'000'000)
+      << static_cast<std::uint32_t>(stamp % 1'000'000'000) << std::string("lidar");
+  cdr << std::uint32_t{1} << returns << std::uint32_t{3};
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    cdr << std::string(1, static_cast<char>('x' + i)) << 4 * i << kFloat << std::uint32_t{1};
+  }
+  cdr << false << kStep << kStep * returns << data << true;
+  const auto* begin = reinterpret_cast<const rtps::octet*>(buffer.getBuffer());
+  return {begin, begin + cdr.getSerializedDataLength()};
+}
+
+void send_clouds(fast::DomainParticipant* node, const std::string& name, int count,
+                 std::uint32_t returns, bool reliable) {
+  fast::DataWriter* writer =
+      writer_of(node, topic(node, name, "sensor_msgs::msg::dds_::PointCloud2_"), false, reliable);
+  wait_for_subscriber(writer);
+  // It may find this publisher later than it is found.
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  int sent = 0;  // those are refused that exceed what writer and type declare
+  for (int i = 0; i < count; ++i) {
+    Bytes bytes = cloud(returns, (1000 + i) * std::int64_t{100'000'000});
+    sent += writer->write(&bytes) ? 1 : 0;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  std::printf("sent %d\n", sent);
+  std::fflush(stdout);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -184,6 +242,10 @@ int main(int argc, char** argv) {
     auto* node = participant(static_cast<std::uint32_t>(std::stoul(arguments[1])));
     listen(node, topic(node, arguments[2], "nav_msgs::msg::dds_::Odometry_"), false,
            [](const Bytes& bytes, const fast::SampleInfo&) { print_odometry(bytes); });
+  } else if (arguments.size() == 6 && arguments[0] == "clouds") {
+    send_clouds(participant(static_cast<std::uint32_t>(std::stoul(arguments[1]))), arguments[2],
+                std::stoi(arguments[3]), static_cast<std::uint32_t>(std::stoul(arguments[4])),
+                arguments[5] == "reliable");
   } else {
     std::cerr << "usage: see the head of fastdds_peer.cpp\n";
     return 2;

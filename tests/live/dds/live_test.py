@@ -40,8 +40,10 @@ def content(path):
         return file.read()
 
 
-def run(*command):
-    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+def run(*command, codes=(0,)):
+    code = subprocess.run(command, check=False, stdout=subprocess.DEVNULL).returncode
+    if code not in codes:
+        raise AssertionError(f"exit code {code}: {command}")
 
 
 def places(poses):
@@ -68,10 +70,10 @@ def counts(recording):
     return {row[0]: int(row[2]) for row in rows if row[2:] and row[0].startswith("/") and row[2].isdigit()}
 
 
-def estimate(recording, folder, *options):
+def estimate(recording, folder, *options, codes=(0,)):
     """The bytes of the trajectory of `aims estimate`."""
     run(AIMS, "estimate", recording, "--out", folder, "--overwrite", "--quiet", "--no-pictures", "--no-page", *TOPICS,
-        *options)
+        *options, codes=codes)
     return content(os.path.join(folder, "aims_d.tum"))
 
 
@@ -301,6 +303,23 @@ class LiveEstimate(unittest.TestCase):
         lines = info_of("beside.mcap")
         self.assertLess(float(re.search(r"([0-9.]+) s, \d+ messages", lines)[1]), 20.0, lines)
         self.assertEqual([line for line in live.states() if "no messages" in line], live.states()[-1:])
+
+    def test_of_a_program_that_was_stopped_no_replay_says_that_a_clock_was_set(self):
+        live = Live("walk.mcap", "paused", pace=1)
+        live.wait_for_poses(10)
+        live.live.send_signal(signal.SIGSTOP)
+        time.sleep(6.5)  # before DDS takes it for killed
+        live.live.send_signal(signal.SIGCONT)
+        self.assertEqual(live.finish(), 0, live.log())
+        self.assertEqual(live.poses(), estimate("paused.mcap", "paused-again", codes=(0, 4)), "invalid for a while")
+        found = summary("paused-again")
+        self.assertGreater(found["counts"]["read_late_by_the_recorder"], 100)
+        self.assertIn("the recorder was stopped or too slow", json.dumps(found["notes"]))
+        self.assertNotIn("clock", json.dumps(found["warnings"]))
+        again = Live("paused.mcap", "paused-live", pace=2)
+        self.assertEqual(again.finish(), 0, again.log())
+        self.assertNotIn("anew", again.log())
+        self.assertNotIn("clock", again.log())
 
     def test_what_is_lost_while_it_is_stopped_is_counted(self):
         # After two seconds, not ten, DDS takes it for killed.
@@ -636,6 +655,40 @@ class FastDds(unittest.TestCase):
         speeds = [float(line.split()[12]) for line in lines]
         self.assertGreater(max(speeds), 0.2, "m/s: it walks")
         self.assertLess(max(speeds), 2.0)
+
+
+    def clouds_arrive(self, reliability):
+        """Numbers of clouds that it sent, that were recorded and that were lost on the way."""
+        name = "clouds-" + reliability
+        for old in glob.glob(name + ".*"):
+            os.remove(old)
+        domain = own_domain()
+        with open(name + ".log", "w", encoding="utf-8") as log:
+            live = subprocess.Popen([AIMS, "live", "--domain", domain, "--record", name + ".mcap"], stdout=log,
+                                    stderr=log)
+        self.processes.append(live)
+        sender = self.peer("clouds", domain, "rt/lidar/points", "20", "131072", reliability)
+        sent = sender.stdout.readline()
+        time.sleep(2)  # what was lost is sent again
+        live.send_signal(signal.SIGTERM)
+        self.assertEqual(live.wait(PATIENCE_S), 0)
+        said = content(name + ".log").decode()
+        info = info_of(name + ".mcap")
+        self.assertIn("cloud /lidar/points: 131072 points; 32 bytes a point", info, said)
+        self.assertNotIn("are the cloud before them", info)
+        lost = re.search(r"note: (\d+) messages lost by the network", said)
+        arrived = counts(name + ".mcap")["/lidar/points"]
+        print(f"{name}: {sent.strip()}, {arrived} arrived, {lost[1] if lost else 0} lost")
+        return int(sent.split()[1]), arrived, int(lost[1]) if lost else 0
+
+    def test_large_clouds_that_it_sends_arrive(self):
+        self.assertEqual(self.clouds_arrive("reliable"), (20, 20, 0))
+
+    def test_of_large_clouds_that_it_sends_as_best_effort_those_that_are_lost_are_counted(self):
+        sent, arrived, lost = self.clouds_arrive("best_effort")
+        self.assertEqual(sent, 20)
+        self.assertGreater(arrived, 0)
+        self.assertIn(arrived + lost, range(18, 21), "of the last ones nobody tells")
 
 
 def tests_of(suite):
