@@ -84,7 +84,4 @@ void Commands::save_map() const {
   print_line("warning: save_map: no map yet");
 }
 
-bool Commands::restarts() const { return restart_.has_value(); }
-std::optional<LiveRequest> Commands::take_restart() { return std::exchange(restart_, {}); }
-
 }  // namespace aims

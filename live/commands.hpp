@@ -28,9 +28,9 @@ class Commands {
   std::optional<LiveMessage> wait(double seconds);
 
   /// Whether the estimate is to start anew.
-  bool restarts() const;
+  bool restarts() const { return restart_.has_value(); }
   /// The request to start anew, once; none: there is none.
-  std::optional<LiveRequest> take_restart();
+  std::optional<LiveRequest> take_restart() { return std::exchange(restart_, {}); }
   /// What saves the map, called by `wait`; empty: there is no map yet.
   void on_save_map(std::function<void()> save) { save_ = std::move(save); }
   /// What is told each second in which no message comes, how long none came [s]; empty: nobody.

@@ -9,7 +9,6 @@
 #include <set>
 #include <utility>
 
-#include "live/odometry_content.hpp"
 #include "live/program.hpp"
 
 namespace aims {
@@ -47,8 +46,6 @@ LiveEstimate::LiveEstimate(Transport& transport, Publications& publications,
       source_(dynamic_cast<const MotionSource*>(&estimator)),
       log_(std::move(log)),
       start_(std::move(start)),
-      moved_(start_.T_odom_start.translation.norm() > 0.0 ||
-             start_.T_odom_start.rotation.vec().norm() > 0.0),
       dropped_(missed().dropped),
       read_warnings_(reader.setup().warnings.size()) {}
 
@@ -87,10 +84,9 @@ void LiveEstimate::take(const Delivery& delivery) {
   timing_.arrived(delivery, reader_.summary().start + reader_.position());
   estimator_.consume(delivery);
   const bool inertial = std::holds_alternative<ImuSample>(delivery.measurement);
-  if (inertial && source_ != nullptr && publications_.fast_heard()) {
-    if (const auto motion = source_->motion(std::numeric_limits<Time>::max())) {
-      publications_.fast(placed_at(start_.T_odom_start, *motion));
-    }
+  if (inertial && publications_.fast_heard()) {
+    const auto motion = placed_motion(std::numeric_limits<Time>::max());
+    if (motion) publications_.fast(*motion);
   }
   take_rows();
 }
@@ -103,10 +99,8 @@ void LiveEstimate::take_rows() {
   if (!new_poses.empty()) warn_of_motion();
   std::vector<StampedPose> poses(new_poses.begin(), new_poses.end());
   for (StampedPose& pose : poses) {
-    if (moved_) pose.pose = start_.T_odom_start * pose.pose;
-    auto motion = source_ != nullptr ? source_->motion(pose.stamp) : std::nullopt;
-    if (motion && moved_) motion = placed_at(start_.T_odom_start, *motion);
-    publications_.pose(pose, motion);
+    if (start_.T_odom_start) pose.pose = *start_.T_odom_start * pose.pose;
+    publications_.pose(pose, placed_motion(pose.stamp));
     if (!ended_) timing_.published(pose.stamp);
     last_ = pose;
   }
@@ -245,11 +239,17 @@ void LiveEstimate::add_silence(std::vector<HealthRow>& rows, bool all) {
 }
 
 std::vector<Eigen::Vector3f> LiveEstimate::placed(std::vector<Eigen::Vector3f> points) const {
-  if (!moved_) return points;
+  if (!start_.T_odom_start) return points;
   for (Eigen::Vector3f& point : points) {
-    point = (start_.T_odom_start * point.cast<double>()).cast<float>();
+    point = (*start_.T_odom_start * point.cast<double>()).cast<float>();
   }
   return points;
+}
+
+std::optional<MotionEstimate> LiveEstimate::placed_motion(Time until) const {
+  auto motion = source_ != nullptr ? source_->motion(until) : std::nullopt;
+  if (motion && start_.T_odom_start) motion = placed_at(*start_.T_odom_start, *motion);
+  return motion;
 }
 
 void LiveEstimate::publish_points(Time stamp) {

@@ -24,7 +24,8 @@ namespace aims {
 
 /// How an estimate begins, and who watches it.
 struct LiveStart {
-  Pose T_odom_start;                     ///< its start in the frame of what is published
+  /// Its start in the frame of what is published; none: the origin.
+  std::optional<Pose> T_odom_start;
   const ClockWatch* clocks = nullptr;    ///< of its topics
   const Recorder* recorder = nullptr;    ///< of its topics
   std::vector<ReadingWarning> warnings;  ///< their reasons are in its health
@@ -81,6 +82,7 @@ class LiveEstimate {
   void publish_points(Time stamp);
   void save_now_and_then();
   std::vector<Eigen::Vector3f> placed(std::vector<Eigen::Vector3f> points) const;
+  std::optional<MotionEstimate> placed_motion(Time until) const;
 
   Transport& transport_;
   Publications& publications_;
@@ -89,7 +91,6 @@ class LiveEstimate {
   const MotionSource* source_;  ///< none: an estimator without
   LiveLog log_;
   LiveStart start_;
-  bool moved_;  ///< whether it does not start at the origin
   ScanTiming timing_;
   std::optional<StampedPose> last_;
   HealthHold hold_;

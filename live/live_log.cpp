@@ -23,8 +23,6 @@ Json warnings_json(const RecordingSetup& setup) {
 
 }  // namespace
 
-LiveLog::LiveLog() : health_table_({"stamp_s", "state", "reasons", "position_sigma_m"}) {}
-
 Result<LiveLog> LiveLog::create(const std::filesystem::path& folder, const std::string& name) {
   LiveLog log;
   if (folder.empty()) return log;

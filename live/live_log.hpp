@@ -44,13 +44,11 @@ class LiveLog {
   const std::filesystem::path& folder() const { return folder_; }  ///< empty: none
 
  private:
-  LiveLog();
-
   std::filesystem::path folder_;
   std::string name_;
   std::ofstream poses_;
   std::ofstream health_;
-  CsvTable health_table_;
+  CsvTable health_table_{{"stamp_s", "state", "reasons", "position_sigma_m"}};
   std::size_t count_ = 0;  ///< poses
   Result<void> state_;
   double path_m_ = 0.0;

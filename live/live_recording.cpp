@@ -79,7 +79,13 @@ void subscribe_to_late_transforms(Transport& transport) {
 class Gathering {
  public:
   Gathering(Transport& transport, Commands& commands, const LiveRecordingOptions& options)
-      : transport_(transport), commands_(commands), options_(options) {
+      : transport_(transport),
+        commands_(commands),
+        options_(options),
+        settle_(from_seconds(options.live.settle)) {
+    if (options.recorder != nullptr) {
+      observer_ = [&options](const BagMessage& message) { options.recorder->add(message); };
+    }
     if (options.transforms != nullptr) before_ = *options.transforms;
     // To receive latched messages again, where another estimate went before.
     for (const auto& [topic, type] : transport.topics()) {
@@ -97,8 +103,8 @@ class Gathering {
       auto reader = try_open();
       if (reader) return std::move(*reader);
       missing = reader.error().message;
-      if (options_.patience > 0.0 && since_start.seconds() > options_.patience) {
-        return failure(fmt::format("timeout after {:g} s: {}", options_.patience, missing));
+      if (options_.live.patience > 0.0 && since_start.seconds() > options_.live.patience) {
+        return failure(fmt::format("timeout after {:g} s: {}", options_.live.patience, missing));
       }
       if (since_report.seconds() < kReportPeriod) continue;
       options_.waiting(missing);
@@ -110,7 +116,7 @@ class Gathering {
 
   /// Shows the observer what was heard, which is to tell why it did not start.
   void show() const {
-    if (options_.observer) LiveSource(messages_, {}).show(options_.observer);
+    if (observer_) LiveSource(messages_, {}).show(observer_);
   }
 
  private:
@@ -134,7 +140,7 @@ class Gathering {
       }
       if (!transport_.running()) return;
     }
-    const Duration kept = std::max(kMaxGathered, options_.settle + kSecond);
+    const Duration kept = std::max(kMaxGathered, settle_ + kSecond);
     if (span() > kept) forget(messages_->back().arrival - kept);
   }
 
@@ -147,15 +153,15 @@ class Gathering {
       (old ? forgotten : kept).push_back(std::move(message));
     }
     *messages_ = std::move(kept);
-    if (!options_.observer || forgotten.empty()) return;
+    if (!observer_ || forgotten.empty()) return;
     forgot_ = true;
-    LiveSource(std::make_shared<LiveMessages>(std::move(forgotten)), {}).show(options_.observer);
+    LiveSource(std::make_shared<LiveMessages>(std::move(forgotten)), {}).show(observer_);
   }
 
   /// The clock of arrivals was set back: what came before lies in its future, as does what the
   /// observer has seen of it.
   void begin_again(Time now) {
-    if (std::exchange(forgot_, false) && options_.record_again) options_.record_again();
+    if (std::exchange(forgot_, false)) options_.recorder->begin_again();
     std::erase_if(*messages_, [](const LiveMessage& message) { return !lasts(message); });
     for (LiveMessage& message : *messages_) message.arrival = now;
   }
@@ -182,12 +188,12 @@ class Gathering {
     // estimate needs fixed transforms, which may be sent but once.
     for (const std::string& topic : subscribed_) {
       const bool needed = live.selects(topic) || topic == kStaticTransformsTopic;
-      if (!options_.observer && !needed) transport_.unsubscribe(topic);
+      if (!observer_ && !needed) transport_.unsubscribe(topic);
     }
     if (forgot_) {
-      show_mark(options_.observer, kForgottenTopic, live.summary().start, transport_.format());
+      show_mark(observer_, kForgottenTopic, live.summary().start, transport_.format());
     }
-    live.go_live(options_.observer, options_.clocks);
+    live.go_live(observer_, options_.clocks);
     return reader;
   }
 
@@ -200,7 +206,7 @@ class Gathering {
           "--node",
           own);
     }
-    if (span() >= options_.settle) return {};
+    if (span() >= settle_) return {};
     if (span() > 0) return fmt::format("{:.1f} s of messages so far", to_seconds(span()));
     if (transport_.format() == kRos1Format || !messages_->empty() || subscribed_.empty()) {
       return "no messages yet" + transport_.place();
@@ -219,7 +225,7 @@ class Gathering {
       const std::string& topic = message.connection->topic;
       if (lasts(message) || !live.selects(topic) || !seen.insert(topic).second) continue;
       const Duration heard = messages_->back().arrival - message.arrival;
-      if (heard < options_.settle) {
+      if (heard < settle_) {
         return fmt::format("{:.1f} s of messages of {} so far", to_seconds(heard), topic);
       }
     }
@@ -229,8 +235,9 @@ class Gathering {
   /// Waits for messages. Clouds may wait no longer than `max_wait` once none is waiting, at the
   /// latest after `kCatchUp`: before, the estimator catches up with what was gathered.
   LiveSource::Wait following() {
-    return [&transport = transport_, &commands = commands_, max_wait = options_.max_wait,
-            kept = options_.transforms, late = true, since_look = Stopwatch(),
+    return [&transport = transport_, &commands = commands_,
+            max_wait = from_seconds(options_.live.max_wait), kept = options_.transforms,
+            late = true, since_look = Stopwatch(),
             first = std::optional<Time>()]() mutable -> std::optional<LiveMessage> {
       while (transport.running() && !commands.restarts()) {
         auto message = commands.wait(late ? 0.0 : kPoll);
@@ -262,7 +269,9 @@ class Gathering {
   Transport& transport_;
   Commands& commands_;
   const LiveRecordingOptions& options_;
-  LiveTransforms before_;  ///< heard before this gathering
+  Duration settle_;
+  LiveSource::Observer observer_;  ///< records; none: nobody does
+  LiveTransforms before_;          ///< heard before this gathering
   std::shared_ptr<LiveMessages> messages_ = std::make_shared<LiveMessages>();
   std::set<std::string> subscribed_;
   bool forgot_ = false;  ///< what the observer has seen
@@ -272,7 +281,8 @@ class Gathering {
 
 Result<std::optional<RecordingReader>> open_live_recording(Transport& transport, Commands& commands,
                                                            const LiveRecordingOptions& options) {
-  transport.limit_wait(std::max(options.max_wait, Inbox::kMaxWaitLarge));  // while it decides
+  transport.limit_wait(
+      std::max(from_seconds(options.live.max_wait), Inbox::kMaxWaitLarge));  // while it decides
   Gathering gathering(transport, commands, options);
   auto reader = gathering.wait_to_open();
   if (!reader || !*reader) gathering.show();

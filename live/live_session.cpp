@@ -15,7 +15,6 @@
 #include "live/live_config.hpp"
 #include "live/live_estimate.hpp"
 #include "live/live_recording.hpp"
-#include "live/odometry_content.hpp"
 #include "live/program.hpp"
 #include "live/recorder.hpp"
 
@@ -73,8 +72,7 @@ class Session {
         options_(options),
         config_(std::move(config)),
         commands_(transport),
-        publications_(transport, {options.odom_frame, options.body_frame, options.tf},
-                      label_of(options.estimator)) {}
+        publications_(transport, options) {}
 
   /// Until the node is asked to end.
   Result<void> run() {
@@ -110,21 +108,14 @@ class Session {
     if (!log) return tl::unexpected(log.error());
     auto recorder = Recorder::create(record_of(part), transport_.format());
     if (!recorder) return tl::unexpected(recorder.error());
-    LiveRecordingOptions live{
+    const LiveRecordingOptions live{
+        .live = options_,
         .config = config_.recording,
-        .settle = from_seconds(options_.settle),
-        .patience = options_.patience,
-        .max_wait = from_seconds(options_.max_wait),
-        .observer = {},
+        .recorder = options_.record.empty() ? nullptr : &*recorder,
         .clocks = &clocks,
         .transforms = &transforms_,
         .check_setup = [&](const RecordingSetup& setup) { return check_topics(config_, setup); },
-        .waiting = [&](const std::string& missing) { tell_waiting(missing); },
-        .record_again = {}};
-    if (!options_.record.empty()) {
-      live.observer = [&](const BagMessage& message) { recorder->add(message); };
-      live.record_again = [&] { recorder->begin_again(); };
-    }
+        .waiting = [&](const std::string& missing) { tell_waiting(missing); }};
     auto opened = open_live_recording(transport_, commands_, live);
     if (!opened || !*opened) {
       const auto recorded = recorder->close();
@@ -169,7 +160,7 @@ class Session {
   /// Says why, and decides where the next estimate starts.
   void start_anew(std::optional<LiveRequest> request, const std::string& broken) {
     const bool origin = request == LiveRequest::kReset;
-    T_odom_start_ = origin ? Pose() : level(last_.pose);
+    T_odom_start_ = origin ? std::nullopt : std::optional(level(last_.pose));
     const std::string why = origin ? "reset" : request ? "calibration, standing" : broken;
     print_line(fmt::format("starting anew{}: {}", origin ? "" : " at the last pose", why));
     publications_.health({last_.stamp, HealthState::kInvalid, {"starting anew: " + why}, NAN}, {});
@@ -181,7 +172,7 @@ class Session {
   Commands commands_;
   Publications publications_;
   LiveTransforms transforms_;
-  Pose T_odom_start_;
+  std::optional<Pose> T_odom_start_;  ///< of the next estimate; none: the origin
   StampedPose last_;
 };
 

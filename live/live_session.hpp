@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/error.hpp"
-#include "live/live_options.hpp"
+#include "live/live_config.hpp"
 #include "live/transport.hpp"
 
 namespace aims {

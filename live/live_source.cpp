@@ -26,7 +26,7 @@ void LiveSource::select(std::span<const std::string> topics) {
   selected_.emplace(topics.begin(), topics.end());
 }
 
-const BagConnection* LiveSource::find(const BagConnection& connection) const {
+BagConnection* LiveSource::find(const BagConnection& connection) {
   const auto found = std::ranges::find_if(connections_, [&](const BagConnection& known) {
     return known.topic == connection.topic && known.type == connection.type &&
            known.md5 == connection.md5;
@@ -35,11 +35,12 @@ const BagConnection* LiveSource::find(const BagConnection& connection) const {
 }
 
 void LiveSource::announce(const BagConnection& connection) {
-  if (find(connection) == nullptr) {
-    connections_.push_back(connection);
-    connections_.back().id = static_cast<std::uint32_t>(connections_.size() - 1);
+  BagConnection* known = find(connection);
+  if (known == nullptr) {
+    known = &connections_.emplace_back(connection);
+    known->id = static_cast<std::uint32_t>(connections_.size() - 1);
   }
-  for (BagConnection& known : connections_) known.messages += &known == find(connection) ? 1 : 0;
+  ++known->messages;
 }
 
 BagMessage LiveSource::as_recorded(const LiveMessage& message, const BagConnection& connection) {

@@ -54,7 +54,7 @@ class LiveSource final : public MessageSource {
   void show(const Observer& observer);
 
  private:
-  const BagConnection* find(const BagConnection& connection) const;
+  BagConnection* find(const BagConnection& connection);
   void announce(const BagConnection& connection);
   const LiveMessage* following();
   bool goes_on(const BagMessage& recorded, Time arrival);

@@ -13,25 +13,32 @@
 #include "core/trajectory.hpp"
 #include "estimator/health.hpp"
 #include "estimator/motion.hpp"
+#include "live/live_config.hpp"
 #include "live/transport.hpp"
 #include "recordings/messages/message_encoding.hpp"
 #include "recordings/messages/message_types.hpp"
 
 namespace aims {
 
-/// Frames of the published poses.
-struct OdometryFrames {
-  std::string odom;  ///< frame of the poses
-  std::string body;  ///< child frame: the IMU's
-  bool tf = false;   ///< also publish transforms on /tf
-};
+/// The pose `to` with the mean twist since `from`, in the axes of `to`; covariances unknown.
+OdometryContent odometry_between(const StampedPose& from, const StampedPose& to);
+
+/// The motion in the frames that nav_msgs/Odometry defines: the covariance of the pose about the
+/// fixed axes of the odometry frame, twist and its covariance in the axes of the body.
+OdometryContent odometry_of(const MotionEstimate& motion);
+
+/// The pose with its heading and position alone.
+Pose level(const Pose& pose);
+
+/// The motion in the frame in which its odometry frame has the level pose `T_frame_odom`.
+MotionEstimate placed_at(const Pose& T_frame_odom, const MotionEstimate& motion);
 
 /// The topics of a live estimate: ~odometry with each pose, ~odometry_fast between them, ~cloud
 /// (the registered points of a scan), ~map, /diagnostics, and /tf where it is asked for. What costs
 /// time is made only for those who listen.
 class Publications {
  public:
-  Publications(Transport& transport, OdometryFrames frames, std::string estimator);
+  Publications(Transport& transport, const LiveOptions& options);
 
   /// A pose of the trajectory; `motion`: the estimate at about that instant, whose twist and
   /// covariances are published, none: the mean twist since the last pose.
@@ -55,8 +62,7 @@ class Publications {
 
   Transport& transport_;
   Serialization serialization_;
-  OdometryFrames frames_;
-  std::string estimator_;
+  const LiveOptions& options_;
   std::size_t odometry_ = 0;
   std::size_t fast_ = 0;
   std::size_t cloud_ = 0;

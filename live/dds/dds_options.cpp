@@ -3,9 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <charconv>
+#include <regex>
 
 namespace aims {
 namespace {
@@ -26,12 +25,8 @@ constexpr std::size_t kLongestNode = 200;  ///< DDS allows 255 characters for a 
 
 /// What ROS 2 takes as a namespace: words of letters, digits and _, joined by /.
 std::string is_node_name(const std::string& name) {
-  const bool fits = std::ranges::all_of(
-      name, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '/'; });
-  const bool joined = !name.empty() && name.size() <= kLongestNode && name.front() != '/' &&
-                      name.back() != '/' && name.find("//") == std::string::npos &&
-                      std::isdigit(static_cast<unsigned char>(name.front())) == 0;
-  return fits && joined
+  const std::regex words("[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z0-9_]+)*");
+  return name.size() <= kLongestNode && std::regex_match(name, words)
              ? ""
              : fmt::format("expected at most {} letters, digits, _ and /, e.g. aims, got '{}'",
                            kLongestNode, name);

@@ -12,7 +12,6 @@
 #include <string_view>
 #include <utility>
 
-#include "live/dds/dds_names.hpp"
 #include "recordings/messages/message_types.hpp"
 
 namespace aims {
@@ -143,47 +142,47 @@ dds_entity_t DdsTransport::make_topic(const std::string& topic, const std::strin
   return made;
 }
 
-void DdsTransport::open(Subscription& subscription) {
-  const std::string& topic = subscription.connection->topic;
-  const Qos qos = quality({subscription.reliable, subscription.connection->latching}, 0.0);
+std::unique_ptr<DdsTransport::Subscription> DdsTransport::open(BagConnection connection,
+                                                               bool reliable) {
+  const Qos qos = quality({reliable, connection.latching}, 0.0);
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
-  const Listener listener(dds_create_listener(&subscription), dds_delete_listener);
+  std::unique_ptr<Subscription> opened(
+      new Subscription{*this, std::make_shared<BagConnection>(std::move(connection)), reliable});
+  const Listener listener(dds_create_listener(opened.get()), dds_delete_listener);
   dds_lset_data_available(listener.get(), [](dds_entity_t reader, void* of) {
     auto& from = *static_cast<Subscription*>(of);
-    from.owner->take_samples(from, reader);
+    from.owner.take_samples(from, reader);
   });
   dds_lset_requested_incompatible_qos(
       listener.get(), [](dds_entity_t, dds_requested_incompatible_qos_status_t status, void* of) {
         auto& from = *static_cast<Subscription*>(of);
-        from.owner->refuse(from, status.last_policy_id);
+        from.owner.refuse(from, status.last_policy_id);
       });
-  subscription.topic = make_topic(topic, subscription.connection->type);
-  if (subscription.topic > 0) {
-    subscription.reader =
-        dds_create_reader(participant_, subscription.topic, qos.get(), listener.get());
+  const std::string& topic = opened->connection->topic;
+  opened->topic = make_topic(topic, opened->connection->type);
+  opened->reader = opened->topic;
+  if (opened->topic > 0) {
+    opened->reader = dds_create_reader(participant_, opened->topic, qos.get(), listener.get());
   }
-  if (subscription.topic < 0 || subscription.reader < 0) {
-    const dds_return_t code = std::min(subscription.topic, subscription.reader);
-    tell(fmt::format("cannot subscribe to {}: {}", topic, dds_strretcode(code)));
+  if (opened->reader < 0) {
+    tell(fmt::format("cannot subscribe to {}: {}", topic, dds_strretcode(opened->reader)));
   }
+  return opened;
 }
 
-void DdsTransport::close(Subscription& subscription) {
-  if (subscription.reader > 0) dds_delete(subscription.reader);
-  if (subscription.topic > 0) dds_delete(subscription.topic);
-  subscription.reader = subscription.topic = 0;
+DdsTransport::Subscription::~Subscription() {
+  if (reader > 0) dds_delete(reader);
+  if (topic > 0) dds_delete(topic);
 }
 
 /// Subscribes again, as best effort, where a publisher offers no more.
 void DdsTransport::reopen_refused() {
   for (auto& [topic, subscription] : subscriptions_) {
-    if (!subscription->refused.exchange(false)) continue;
-    close(*subscription);
-    auto connection = std::make_shared<BagConnection>(*subscription->connection);
-    connection->latching = false;
-    subscription->connection = std::move(connection);
-    subscription->reliable = false;
-    open(*subscription);
+    if (!subscription->refused) continue;
+    BagConnection connection = *subscription->connection;
+    connection.latching = false;
+    subscription.reset();  // or both would hear some publishers
+    subscription = open(std::move(connection), false);
   }
 }
 
@@ -196,18 +195,21 @@ void DdsTransport::watch_publishers() {
   discovery_.update();
   for (const auto& [topic, subscription] : subscriptions_) {
     const std::string& type = subscription->connection->type;
-    if (const std::string other = discovery_.other_type(topic, type); !other.empty()) {
-      tell(fmt::format("a publisher of {} sends {}: expected {}, it is not heard", topic, other,
-                       type));
+    const auto offers = discovery_.offers_of(topic);
+    const auto other = std::ranges::find_if(offers, [&](auto& each) { return each.type != type; });
+    if (other != offers.end()) {
+      tell(fmt::format("a publisher of {} sends {}: expected {}, it is not heard", topic,
+                       other->type, type));
     }
     if (type == "tf2_msgs/TFMessage" || type == "diagnostic_msgs/DiagnosticArray") continue;
-    const std::size_t count = discovery_.publishers(topic);
-    if (count > 1) tell(fmt::format("{} has {} publishers: expected one", topic, count));
+    if (offers.size() < 2) continue;
+    tell(fmt::format("{} has {} publishers: expected one", topic, offers.size()));
   }
 }
 
 DdsTransport::~DdsTransport() {
   // Ends all callbacks before what they use.
+  subscriptions_.clear();
   if (participant_ > 0) dds_delete(participant_);
 }
 
@@ -232,7 +234,8 @@ std::map<std::string, std::string> DdsTransport::topics() {
 
 bool DdsTransport::preceded(const std::string& topic) {
   discovery_.update();
-  return discovery_.oldest(topic) < began_;
+  return std::ranges::any_of(discovery_.offers_of(topic),
+                             [this](const auto& each) { return each.began < began_; });
 }
 
 std::string DdsTransport::place() const {
@@ -253,26 +256,16 @@ void DdsTransport::subscribe(const std::string& topic, const std::string& type) 
   if (subscriptions_.contains(name)) return;
   discovery_.update();
   const OfferedQuality offered = discovery_.quality_of(name);
-  auto connection = std::make_shared<BagConnection>();
-  connection->topic = name;
-  connection->type = type;
-  connection->latching = offered.transient_local;
-  connection->format = kRos2Format;
-  complete_definition(type, connection->definition, connection->format);
-  auto subscription = std::make_unique<Subscription>();
-  subscription->owner = this;
-  subscription->connection = std::move(connection);
-  subscription->reliable = offered.reliable;
-  open(*subscription);
-  subscriptions_.emplace(name, std::move(subscription));
+  BagConnection connection;
+  connection.topic = name;
+  connection.type = type;
+  connection.latching = offered.transient_local;
+  connection.format = kRos2Format;
+  complete_definition(type, connection.definition, connection.format);
+  subscriptions_.emplace(name, open(std::move(connection), offered.reliable));
 }
 
-void DdsTransport::unsubscribe(const std::string& topic) {
-  const auto found = subscriptions_.find(resolved(topic));
-  if (found == subscriptions_.end()) return;
-  close(*found->second);
-  subscriptions_.erase(found);
-}
+void DdsTransport::unsubscribe(const std::string& topic) { subscriptions_.erase(resolved(topic)); }
 
 std::optional<LiveMessage> DdsTransport::wait(double seconds) {
   reopen_refused();
@@ -304,10 +297,10 @@ bool DdsTransport::publish_at(std::size_t publisher, Time time, std::span<const 
   return writer > 0 && dds_write_ts(writer, &data, time) == DDS_RETCODE_OK;
 }
 
-std::size_t DdsTransport::subscribers(std::size_t publisher) const {
+bool DdsTransport::heard(std::size_t publisher) const {
   dds_publication_matched_status_t status = {};
   dds_get_publication_matched_status(writers_.at(publisher), &status);
-  return status.current_count;
+  return status.current_count > 0;
 }
 
 std::size_t DdsTransport::wait_for_subscribers(double seconds) const {

@@ -27,7 +27,7 @@ struct DdsOptions {
   double max_blocking = 0.02;  ///< how long publishing waits for slow subscribers [s]
 };
 
-/// A node of a ROS 2 network by CycloneDDS alone, without ROS: names as `dds_names.hpp`, messages
+/// A node of a ROS 2 network by CycloneDDS alone, without ROS: names as `dds_topic`, messages
 /// as bytes. CYCLONEDDS_URI configures interfaces and discovery. A subscription takes the quality
 /// that all publishers of its topic offer: reliable, and with past messages, where all do; so it
 /// matches any of them. Publishers are reliable, which matches subscribers of any reliability.
@@ -46,14 +46,12 @@ class DdsTransport final : public Transport {
   std::optional<LiveMessage> wait(double seconds) override;
   std::map<std::string, std::size_t> take_doubled() override { return discovery_.take_doubled(); }
   std::size_t advertise(const std::string& topic, const MessageType& type, bool latching) override;
-  bool heard(std::size_t publisher) const override { return subscribers(publisher) > 0; }
+  bool heard(std::size_t publisher) const override;
   void publish(std::size_t publisher, std::span<const std::byte> data) override;
 
   /// As `publish`, with that time of sending, >= 0. False when the subscribers are too slow,
   /// or for what is no message of CDR.
   bool publish_at(std::size_t publisher, Time time, std::span<const std::byte> data);
-  /// Subscribers of a topic that this node publishes.
-  std::size_t subscribers(std::size_t publisher) const;
   /// Waits until all subscribers have all messages, or `seconds`; topics of which one has not.
   std::size_t wait_for_subscribers(double seconds) const;
 
@@ -63,19 +61,20 @@ class DdsTransport final : public Transport {
   using Entity = std::int32_t;  ///< of DDS
   /// One topic of which this node receives messages.
   struct Subscription {
-    DdsTransport* owner = nullptr;
+    ~Subscription();
+
+    DdsTransport& owner;
     std::shared_ptr<const BagConnection> connection;
     bool reliable = false;
     Entity topic = 0;
     Entity reader = 0;
-    std::atomic<bool> refused{false};  ///< a publisher offers less than was asked for
+    std::atomic<bool> refused = false;  ///< a publisher offers less than was asked for
     /// Number of the last sample of each writer.
-    std::map<std::array<std::byte, 16>, std::uint64_t> last;
+    std::map<std::array<std::byte, 16>, std::uint64_t> last = {};
   };
 
   explicit DdsTransport(DdsOptions options) : options_(std::move(options)) {}
-  void open(Subscription& subscription);
-  static void close(Subscription& subscription);
+  std::unique_ptr<Subscription> open(BagConnection connection, bool reliable);
   Time arrival_of(Time sent, bool latching);
   void take_samples(Subscription& subscription, Entity reader);
   void count_lost(Subscription& subscription, const SampleOrigin& origin);

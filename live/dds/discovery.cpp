@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
-
-#include "live/dds/dds_names.hpp"
+#include <string_view>
 
 namespace aims {
 namespace {
 
+constexpr std::string_view kTopicPrefix = "rt/";
+constexpr std::string_view kMiddle = "::msg::dds_::";
 constexpr std::size_t kBatch = 16;  ///< samples per call of DDS
 
 OfferedQuality quality_of(const dds_qos_t* qos) {
@@ -36,6 +36,30 @@ Time began(const dds_qos_t* qos) {
 }
 
 }  // namespace
+
+std::string dds_topic(const std::string& topic) {
+  return std::string(kTopicPrefix) + topic.substr(topic.starts_with("/") ? 1 : 0);
+}
+
+std::optional<std::string> ros_topic(const std::string& dds) {
+  if (!dds.starts_with(kTopicPrefix) || dds.size() == kTopicPrefix.size()) return std::nullopt;
+  return dds.substr(kTopicPrefix.size() - 1);  // from the slash on
+}
+
+std::string dds_type(const std::string& type) {
+  const std::size_t slash = type.find('/');
+  if (slash == std::string::npos) return type;
+  return type.substr(0, slash) + std::string(kMiddle) + type.substr(slash + 1) + "_";
+}
+
+std::optional<std::string> ros_type(const std::string& dds) {
+  const std::size_t middle = dds.find(kMiddle);
+  const std::size_t name = middle + kMiddle.size();
+  if (middle == std::string::npos || middle == 0 || dds.size() < name + 2 || !dds.ends_with("_")) {
+    return std::nullopt;
+  }
+  return dds.substr(0, middle) + "/" + dds.substr(name, dds.size() - name - 1);
+}
 
 Result<Discovery> Discovery::create(std::int32_t participant) {
   Discovery discovery;
@@ -73,7 +97,7 @@ void Discovery::update() {
   // Those that went are gone by now: a driver that restarts is not there twice.
   for (auto& [instance, offer] : came) {
     const std::string& topic = (offers_[instance] = std::move(offer)).topic;
-    if (const std::size_t all = publishers(topic); all > 1) {
+    if (const std::size_t all = offers_of(topic).size(); all > 1) {
       doubled_[topic] = std::max(doubled_[topic], all);
     }
   }
@@ -85,42 +109,29 @@ std::map<std::string, std::string> Discovery::topics() const {
   return types;
 }
 
-std::string Discovery::other_type(const std::string& topic, const std::string& type) const {
+std::vector<Discovery::Offer> Discovery::offers_of(const std::string& topic) const {
+  std::vector<Offer> found;
   for (const auto& [instance, offer] : offers_) {
-    if (offer.topic == topic && offer.type != type) return offer.type;
+    if (offer.topic == topic) found.push_back(offer);
   }
-  return "";
-}
-
-std::size_t Discovery::publishers(const std::string& topic) const {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      offers_, [&](const auto& offer) { return offer.second.topic == topic; }));
+  return found;
 }
 
 std::map<std::string, std::size_t> Discovery::take_doubled() {
   auto found = doubled_;
-  for (auto& [topic, count] : doubled_) count = publishers(topic);
+  for (auto& [topic, count] : doubled_) count = offers_of(topic).size();
   std::erase_if(doubled_, [](const auto& each) { return each.second < 2; });
   return found;
 }
 
-Time Discovery::oldest(const std::string& topic) const {
-  Time oldest = std::numeric_limits<Time>::max();
-  for (const auto& [instance, offer] : offers_) {
-    if (offer.topic == topic) oldest = std::min(oldest, offer.began);
-  }
-  return oldest;
-}
-
 OfferedQuality Discovery::quality_of(const std::string& topic) const {
-  OfferedQuality all;
-  for (const auto& [instance, offer] : offers_) {
-    if (offer.topic != topic) continue;
-    all.reliable = all.reliable && offer.quality.reliable;
-    all.transient_local = all.transient_local && offer.quality.transient_local;
-  }
+  const std::vector<Offer> offers = offers_of(topic);
   // Before there is a publisher: the quality that matches any.
-  if (publishers(topic) == 0) return {false, false};
+  OfferedQuality all{!offers.empty(), !offers.empty()};
+  for (const Offer& each : offers) {
+    all.reliable = all.reliable && each.quality.reliable;
+    all.transient_local = all.transient_local && each.quality.transient_local;
+  }
   all.transient_local = all.transient_local && all.reliable;
   return all;
 }

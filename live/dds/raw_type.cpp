@@ -20,8 +20,6 @@ namespace {
 
 constexpr std::size_t kHeader = 4;  ///< of a CDR message [bytes]
 
-struct RawType : ddsi_sertype {};
-
 struct RawSample : ddsi_serdata {
   std::vector<std::byte> bytes;  ///< padded to a multiple of four, which is read behind the end
   std::size_t size = 0;          ///< without padding
@@ -41,12 +39,6 @@ std::unique_ptr<RawSample> make_sample(const ddsi_sertype* type, ddsi_serdata_ki
 }
 
 // Samples.
-
-bool same_key(const ddsi_serdata*, const ddsi_serdata*) { return true; }
-
-std::uint32_t size_of(const ddsi_serdata* sample) {
-  return static_cast<std::uint32_t>(raw(sample).size);
-}
 
 /// As the headers of packet and submessage say, which DDS has checked and brought to the order of
 /// bytes of this machine.
@@ -108,10 +100,6 @@ ddsi_serdata* from_span(const ddsi_sertype* type, ddsi_serdata_kind kind, const 
   return sample.release();
 }
 
-void copy_out(const ddsi_serdata* sample, std::size_t offset, std::size_t size, void* out) {
-  std::memcpy(out, raw(sample).bytes.data() + offset, size);
-}
-
 ddsi_serdata* lend(const ddsi_serdata* sample, std::size_t offset, std::size_t size,
                    ddsrt_iovec_t* out) {
   out->iov_base = const_cast<std::byte*>(raw(sample).bytes.data() + offset);  // only read
@@ -119,19 +107,11 @@ ddsi_serdata* lend(const ddsi_serdata* sample, std::size_t offset, std::size_t s
   return ddsi_serdata_ref(sample);
 }
 
-void take_back(ddsi_serdata* sample, const ddsrt_iovec_t*) { ddsi_serdata_unref(sample); }
-
-/// Samples are taken as they are, by `dds_takecdr`.
-bool no_sample(const ddsi_serdata*, void*, void**, void*) { return false; }
-bool no_key_sample(const ddsi_sertype*, const ddsi_serdata*, void*, void**, void*) { return true; }
-
 ddsi_serdata* key_of(const ddsi_serdata* sample) {
   auto key = make_sample(sample->type, SDK_KEY, 0);
   key->type = nullptr;  // a key belongs to no type
   return key.release();
 }
-
-void free_sample(ddsi_serdata* sample) { delete static_cast<RawSample*>(sample); }
 
 std::size_t print_sample(const ddsi_sertype*, const ddsi_serdata* sample, char* text,
                          std::size_t size) {
@@ -142,52 +122,48 @@ std::size_t print_sample(const ddsi_sertype*, const ddsi_serdata* sample, char* 
   return length;
 }
 
-void key_hash(const ddsi_serdata*, ddsi_keyhash* out, bool) { std::memset(out, 0, sizeof(*out)); }
-
 constexpr ddsi_serdata_ops sample_functions() {
   ddsi_serdata_ops ops = {};
-  ops.eqkey = same_key;
-  ops.get_size = size_of;
+  ops.eqkey = [](const ddsi_serdata*, const ddsi_serdata*) { return true; };
+  ops.get_size = [](const ddsi_serdata* sample) {
+    return static_cast<std::uint32_t>(raw(sample).size);
+  };
   ops.from_ser = from_fragments;
   ops.from_ser_iov = from_pieces;
   ops.from_keyhash = from_key;
   ops.from_sample = from_span;
-  ops.to_ser = copy_out;
+  ops.to_ser = [](const ddsi_serdata* sample, std::size_t offset, std::size_t size, void* out) {
+    std::memcpy(out, raw(sample).bytes.data() + offset, size);
+  };
   ops.to_ser_ref = lend;
-  ops.to_ser_unref = take_back;
-  ops.to_sample = no_sample;
+  ops.to_ser_unref = [](ddsi_serdata* sample, const ddsrt_iovec_t*) { ddsi_serdata_unref(sample); };
+  // Samples are taken as they are, by `dds_takecdr`.
+  ops.to_sample = [](const ddsi_serdata*, void*, void**, void*) { return false; };
   ops.to_untyped = key_of;
-  ops.untyped_to_sample = no_key_sample;
-  ops.free = free_sample;
+  ops.untyped_to_sample = [](const ddsi_sertype*, const ddsi_serdata*, void*, void**, void*) {
+    return true;
+  };
+  ops.free = [](ddsi_serdata* sample) { delete static_cast<RawSample*>(sample); };
   ops.print = print_sample;
-  ops.get_keyhash = key_hash;
+  ops.get_keyhash = [](const ddsi_serdata*, ddsi_keyhash* out, bool) { *out = {}; };
   return ops;
 }
 
 // The type.
 
-void free_type(ddsi_sertype* type) {
-  ddsi_sertype_fini(type);
-  delete static_cast<RawType*>(type);
-}
-
-void clear_samples(const ddsi_sertype*, void*, std::size_t) {}
-void resize_samples(void** pointers, const ddsi_sertype*, void*, std::size_t, std::size_t count) {
-  std::fill_n(pointers, count, nullptr);
-}
-void free_samples(const ddsi_sertype*, void**, std::size_t, dds_free_op_t) {}
-bool same_type(const ddsi_sertype*, const ddsi_sertype*) { return true; }  // names are compared
-std::uint32_t type_hash(const ddsi_sertype*) { return 0; }
-
 constexpr ddsi_sertype_ops type_functions() {
   ddsi_sertype_ops ops = {};
   ops.version = ddsi_sertype_v0;
-  ops.free = free_type;
-  ops.zero_samples = clear_samples;
-  ops.realloc_samples = resize_samples;
-  ops.free_samples = free_samples;
-  ops.equal = same_type;
-  ops.hash = type_hash;
+  ops.free = [](ddsi_sertype* type) {
+    ddsi_sertype_fini(type);
+    delete type;
+  };
+  ops.zero_samples = [](const ddsi_sertype*, void*, std::size_t) {};
+  ops.realloc_samples = [](void** pointers, const ddsi_sertype*, void*, std::size_t,
+                           std::size_t count) { std::fill_n(pointers, count, nullptr); };
+  ops.free_samples = [](const ddsi_sertype*, void**, std::size_t, dds_free_op_t) {};
+  ops.equal = [](const ddsi_sertype*, const ddsi_sertype*) { return true; };  // names are compared
+  ops.hash = [](const ddsi_sertype*) { return std::uint32_t{0}; };
   return ops;
 }
 
@@ -197,7 +173,7 @@ constexpr ddsi_sertype_ops kTypeFunctions = type_functions();
 }  // namespace
 
 ddsi_sertype* make_raw_type(const std::string& name) {
-  auto* type = new RawType();
+  auto* type = new ddsi_sertype();
   ddsi_sertype_init_flags(type, name.c_str(), &kTypeFunctions, &kSampleFunctions,
                           DDSI_SERTYPE_FLAG_TOPICKIND_NO_KEY);
   type->allowed_data_representation = DDS_DATA_REPRESENTATION_FLAG_XCDR1;

@@ -12,8 +12,8 @@ int main(int argc, char** argv) {
       "Exit codes: 0 ok, 2 bad usage, configuration or topics.");
   LiveOptions options;
   add_live_options(app, options);
-  return run_program(app, Ros1Transport::own_arguments(argc, argv), [&]() -> Result<void> {
-    const auto transport = Ros1Transport::connect(argc, argv, app.get_name());
+  return run_program(app, arguments_without_ros(argc, argv), [&]() -> Result<void> {
+    const auto transport = connect_to_ros1(argc, argv, app.get_name());
     if (!transport) return tl::unexpected(transport.error());
     return run_live(**transport, options);
   });

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -27,25 +28,75 @@ struct ByteStream {
   }
 };
 
-}  // namespace
+class Ros1Transport final : public Transport {
+ public:
+  Ros1Transport() { spinner_.start(); }
+  ~Ros1Transport() override { spinner_.stop(); }
 
-struct Ros1Transport::Impl {
+  MessageFormat format() const override { return kRos1Format; }
+  bool running() const override { return Transport::running() && ros::ok(); }
+
+  std::map<std::string, std::string> topics() override {
+    ros::master::V_TopicInfo found;
+    std::map<std::string, std::string> types;
+    if (!ros::master::getTopics(found)) return types;
+    const std::string own = resolved("~");
+    for (const ros::master::TopicInfo& topic : found) {
+      if (!topic.name.starts_with(own)) types[topic.name] = topic.datatype;
+    }
+    return types;
+  }
+
+  std::string resolved(const std::string& topic) const override {
+    return ros::names::resolve(topic);
+  }
+
+  void subscribe(const std::string& topic, const std::string& /*type*/) override {
+    const std::string name = resolved(topic);
+    if (subscribers_.contains(name)) return;
+    ros::SubscribeOptions options;
+    options.initByFullCallbackType<const Event&>(
+        name, kQueueSize, [this, name](const Event& event) { inbox_.push(taken(name, event)); });
+    options.callback_queue = &queue_;
+    options.transport_hints = ros::TransportHints().tcpNoDelay();
+    subscribers_[name] = node_.subscribe(options);
+  }
+
+  void unsubscribe(const std::string& topic) override { subscribers_.erase(resolved(topic)); }
+
+  std::size_t advertise(const std::string& topic, const MessageType& type, bool latching) override {
+    ros::AdvertiseOptions options(resolved(topic), kSendQueue, type.md5, type.name,
+                                  type.definition);
+    options.latch = latching;
+    ShapeShifter message;
+    message.morph(type.md5, type.name, type.definition, latching ? "1" : "0");
+    publishers_.emplace_back(node_.advertise(options), message);
+    return publishers_.size() - 1;
+  }
+
+  bool heard(std::size_t publisher) const override {
+    return publishers_.at(publisher).first.getNumSubscribers() > 0;
+  }
+
+  void publish(std::size_t publisher, std::span<const std::byte> data) override {
+    auto& [target, message] = publishers_.at(publisher);
+    // Only read: roscpp has one stream type for both directions.
+    auto* bytes = const_cast<std::uint8_t*>(reinterpret_cast<const std::uint8_t*>(data.data()));
+    ros::serialization::IStream stream(bytes, static_cast<std::uint32_t>(data.size()));
+    message.read(stream);
+    target.publish(message);
+  }
+
+ private:
   using Event = ros::MessageEvent<const ShapeShifter>;
   using Key = std::tuple<std::string, std::string, bool>;  // topic, md5, latching
-
-  ros::NodeHandle node;
-  ros::CallbackQueue queue;
-  std::map<std::string, ros::Subscriber> subscribers;
-  std::map<Key, std::shared_ptr<const BagConnection>> connections;
-  std::vector<std::pair<ros::Publisher, ShapeShifter>> publishers;
-  ros::AsyncSpinner spinner{1, &queue};  ///< its thread takes messages over
 
   LiveMessage taken(const std::string& topic, const Event& event) {
     const ShapeShifter& message = *event.getConstMessage();
     const auto& header = event.getConnectionHeaderPtr();
     const auto latching = header->find("latching");
     const bool latched = latching != header->end() && latching->second == "1";
-    auto& connection = connections[{topic, message.getMD5Sum(), latched}];
+    auto& connection = connections_[{topic, message.getMD5Sum(), latched}];
     if (!connection) {
       BagConnection made;
       made.topic = topic;
@@ -60,13 +111,18 @@ struct Ros1Transport::Impl {
     message.write(stream);
     return taken;
   }
+
+  ros::NodeHandle node_;
+  ros::CallbackQueue queue_;
+  std::map<std::string, ros::Subscriber> subscribers_;
+  std::map<Key, std::shared_ptr<const BagConnection>> connections_;
+  std::vector<std::pair<ros::Publisher, ShapeShifter>> publishers_;
+  ros::AsyncSpinner spinner_{1, &queue_};  ///< its thread takes messages over
 };
 
-Ros1Transport::Ros1Transport(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+}  // namespace
 
-Ros1Transport::~Ros1Transport() { impl_->spinner.stop(); }
-
-std::vector<std::string> Ros1Transport::own_arguments(int argc, char** argv) {
+std::vector<std::string> arguments_without_ros(int argc, char** argv) {
   std::vector<std::string> arguments;
   ros::removeROSArgs(argc, argv, arguments);
   if (!arguments.empty()) arguments.erase(arguments.begin());
@@ -77,8 +133,7 @@ std::vector<std::string> Ros1Transport::own_arguments(int argc, char** argv) {
   return arguments;
 }
 
-Result<std::unique_ptr<Ros1Transport>> Ros1Transport::connect(int argc, char** argv,
-                                                              const std::string& name) {
+Result<std::unique_ptr<Transport>> connect_to_ros1(int argc, char** argv, const std::string& name) {
   try {
     ros::init(argc, argv, name, ros::init_options::NoRosout | ros::init_options::NoSigintHandler);
   } catch (const std::exception& exception) {
@@ -88,65 +143,7 @@ Result<std::unique_ptr<Ros1Transport>> Ros1Transport::connect(int argc, char** a
     return failure("no ROS master at " + ros::master::getURI() +
                    "; start one, or set ROS_MASTER_URI");
   }
-  auto impl = std::make_unique<Impl>();
-  impl->spinner.start();
-  return std::unique_ptr<Ros1Transport>(new Ros1Transport(std::move(impl)));
-}
-
-bool Ros1Transport::running() const { return Transport::running() && ros::ok(); }
-
-std::map<std::string, std::string> Ros1Transport::topics() {
-  ros::master::V_TopicInfo found;
-  std::map<std::string, std::string> types;
-  if (!ros::master::getTopics(found)) return types;
-  const std::string own = resolved("~");
-  for (const ros::master::TopicInfo& topic : found) {
-    if (!topic.name.starts_with(own)) types[topic.name] = topic.datatype;
-  }
-  return types;
-}
-
-std::string Ros1Transport::resolved(const std::string& topic) const {
-  return ros::names::resolve(topic);
-}
-
-void Ros1Transport::subscribe(const std::string& topic, const std::string& /*type*/) {
-  const std::string name = resolved(topic);
-  if (impl_->subscribers.contains(name)) return;
-  ros::SubscribeOptions options;
-  options.initByFullCallbackType<const Impl::Event&>(
-      name, kQueueSize,
-      [this, name](const Impl::Event& event) { inbox_.push(impl_->taken(name, event)); });
-  options.callback_queue = &impl_->queue;
-  options.transport_hints = ros::TransportHints().tcpNoDelay();
-  impl_->subscribers[name] = impl_->node.subscribe(options);
-}
-
-void Ros1Transport::unsubscribe(const std::string& topic) {
-  impl_->subscribers.erase(resolved(topic));
-}
-
-std::size_t Ros1Transport::advertise(const std::string& topic, const MessageType& type,
-                                     bool latching) {
-  ros::AdvertiseOptions options(resolved(topic), kSendQueue, type.md5, type.name, type.definition);
-  options.latch = latching;
-  ShapeShifter message;
-  message.morph(type.md5, type.name, type.definition, latching ? "1" : "0");
-  impl_->publishers.emplace_back(impl_->node.advertise(options), message);
-  return impl_->publishers.size() - 1;
-}
-
-bool Ros1Transport::heard(std::size_t publisher) const {
-  return impl_->publishers.at(publisher).first.getNumSubscribers() > 0;
-}
-
-void Ros1Transport::publish(std::size_t publisher, std::span<const std::byte> data) {
-  auto& [target, message] = impl_->publishers.at(publisher);
-  // Only read: roscpp has one stream type for both directions.
-  auto* bytes = const_cast<std::uint8_t*>(reinterpret_cast<const std::uint8_t*>(data.data()));
-  ros::serialization::IStream stream(bytes, static_cast<std::uint32_t>(data.size()));
-  message.read(stream);
-  target.publish(message);
+  return std::make_unique<Ros1Transport>();
 }
 
 }  // namespace aims

@@ -5,8 +5,6 @@
 #include <httplib.h>
 
 #include <charconv>
-#include <thread>
-#include <utility>
 
 namespace aims {
 namespace {
@@ -42,24 +40,18 @@ Routed refuse(Response& response, int status) {
 
 }  // namespace
 
-struct WatchServer::Impl {
-  httplib::Server server;
-  int port = 0;
-  std::thread thread;
-};
-
-WatchServer::WatchServer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+WatchServer::WatchServer() : server_(std::make_unique<httplib::Server>()) {}
 
 WatchServer::~WatchServer() {
-  impl_->server.stop();
-  impl_->thread.join();
+  server_->stop();
+  if (thread_.joinable()) thread_.join();
 }
 
 Result<std::unique_ptr<WatchServer>> WatchServer::start(const std::string& address,
                                                         std::uint16_t port,
                                                         const WatchState& state) {
-  auto impl = std::make_unique<Impl>();
-  httplib::Server& server = impl->server;
+  std::unique_ptr<WatchServer> made(new WatchServer());
+  httplib::Server& server = *made->server_;
   server.set_keep_alive_max_count(1).set_keep_alive_timeout(kPatience);
   server.set_read_timeout(kPatience).set_write_timeout(kPatience);
   server.set_default_headers(
@@ -83,18 +75,16 @@ Result<std::unique_ptr<WatchServer>> WatchServer::start(const std::string& addre
     response.set_content(state.json(number_in(request, "epoch"), number_in(request, "from")),
                          "application/json");
   });
-  const bool bound = port == 0 ? (impl->port = server.bind_to_any_port(address)) > 0
-                               : server.bind_to_port(address, impl->port = port);
+  const bool bound = port == 0 ? (made->port_ = server.bind_to_any_port(address)) > 0
+                               : server.bind_to_port(address, made->port_ = port);
   if (!bound) {
     return failure(fmt::format(
         "{} port {}: expected an address of this computer, e.g. 127.0.0.1, and a free port",
         address, port));
   }
-  impl->thread = std::thread([&server] { server.listen_after_bind(); });
+  made->thread_ = std::thread([&server] { server.listen_after_bind(); });
   while (!server.is_running()) std::this_thread::yield();  // else `stop` would be missed
-  return std::unique_ptr<WatchServer>(new WatchServer(std::move(impl)));
+  return made;
 }
-
-std::uint16_t WatchServer::port() const { return static_cast<std::uint16_t>(impl_->port); }
 
 }  // namespace aims

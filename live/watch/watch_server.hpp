@@ -5,9 +5,14 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <thread>
 
 #include "core/error.hpp"
 #include "live/watch/watch_state.hpp"
+
+namespace httplib {
+class Server;
+}
 
 namespace aims {
 
@@ -25,12 +30,14 @@ class WatchServer {
                                                     const WatchState& state);
   ~WatchServer();
 
-  std::uint16_t port() const;
+  std::uint16_t port() const { return static_cast<std::uint16_t>(port_); }
 
  private:
-  struct Impl;
-  explicit WatchServer(std::unique_ptr<Impl> impl);
-  std::unique_ptr<Impl> impl_;
+  WatchServer();
+
+  std::unique_ptr<httplib::Server> server_;
+  int port_ = 0;
+  std::thread thread_;
 };
 
 }  // namespace aims

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "live/live_options.hpp"
+#include "live/live_config.hpp"
 
 #include <gtest/gtest.h>
 

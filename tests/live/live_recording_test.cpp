@@ -47,7 +47,7 @@ TEST(LiveRecording, ALidarThatStartsLateLosesNoClouds) {
   test::PlayedTransport transport(file);
   Commands commands(transport);
   LiveRecordingOptions options;
-  options.settle = kSecond;
+  options.live.settle = 1.0;
   options.check_setup = [](const RecordingSetup&) { return Result<void>(); };
   options.waiting = [](const std::string&) {};
   auto reader = open_live_recording(transport, commands, options);

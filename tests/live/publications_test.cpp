@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "live/odometry_content.hpp"
+#include "live/publications.hpp"
 
 #include <gtest/gtest.h>
 

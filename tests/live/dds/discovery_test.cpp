@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "live/dds/dds_names.hpp"
+#include "live/dds/discovery.hpp"
 
 #include <gtest/gtest.h>
 
