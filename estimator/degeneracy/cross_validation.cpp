@@ -125,10 +125,13 @@ void CrossValidatedInformation::update_fraction(double free_tilt) {
   Eigen::Array3d fraction;
   Eigen::Array3d step = Eigen::Array3d::Zero();
   constrained_.setIdentity();
+  uneven_walls_ = false;
   for (int i = 0; i < 3; ++i) {
     const double f = solver.eigenvalues()(i);
-    const double tilt = free_tilt * free_tilt * sum_of_weights_ * V.col(i).squaredNorm();
+    const double per_squared_tilt = sum_of_weights_ * V.col(i).squaredNorm();
+    const double tilt = free_tilt * free_tilt * per_squared_tilt;
     fraction(i) = without(std::max(at_start, tilt), f);
+    if (fraction(i) > 0.0 && f < kFreeTilt * kFreeTilt * per_squared_tilt) uneven_walls_ = true;
     // What the tilt takes is left out to be safe, and the vector still asks for it; the pattern of
     // the start is no displacement.
     if (fraction(i) > 0.0) step(i) = without(tilt, f) / std::min(f, 1.0);
@@ -146,6 +149,7 @@ void CrossValidatedInformation::update_fraction(double free_tilt) {
 }
 
 PoseInformation CrossValidatedInformation::applied_to(const HalvesInformation& scan) const {
+  if (uneven_walls_ && !leaves_direction_free()) return {scan.within, scan.within_vector};
   const Eigen::Matrix3d S = position_information(scan.within);
   const Eigen::Vector3d rotation = scan.across_vector.head<3>();
   const Eigen::Vector3d position =

@@ -61,6 +61,11 @@ inline constexpr double kFreeTilt = 0.006;
 ///
 /// Whether X along the weakest axis is zero is a test: it counts as far as it exceeds the error of
 /// its average, which the scatter of the scans shows, or `kFreeTilt` if that is less.
+///
+/// Tilts below `kFreeTilt` that pass the test are those of uneven walls. Their slopes change within
+/// decimetres, less than the vector of one scan over X scatters, so the estimate would leave the
+/// range in which they pull it back. Such scans count whole: W and `within_vector` state X / W of
+/// the displacement, a tenth, and many of them find the place (docs/estimators.md).
 class CrossValidatedInformation {
  public:
   /// Adds a scan at `position` [m]; scans of a robot that stands count once. `shared_tilt`: that
@@ -69,11 +74,14 @@ class CrossValidatedInformation {
            std::optional<double> shared_tilt = std::nullopt);
 
   /// A of the position with the rotation unknown and the vector that belongs to it; the rotation
-  /// with the position given is taken as real.
+  /// with the position given is taken as real. All of the scan where only uneven walls hold it.
   PoseInformation applied_to(const HalvesInformation& scan) const;
 
   /// Projection of the position onto the directions that scans do not leave free.
   const Eigen::Matrix3d& constrained() const { return constrained_; }
+
+  /// Whether along some direction only planes that face it by less than `kFreeTilt` count.
+  bool held_by_uneven_walls() const { return uneven_walls_; }
 
   /// Whether scans leave a direction of the position free.
   bool leaves_direction_free() const { return weakest_ <= 0.0; }
@@ -87,6 +95,7 @@ class CrossValidatedInformation {
   double distance_ = 0.0;  ///< moved since the first scan [m]
   double weight_ = 0.0;   ///< of all scans since the first in the averages, 1 after a long distance
   double weakest_ = 0.0;  ///< smallest entry of the diagonal below
+  bool uneven_walls_ = false;
   Eigen::Vector3d weakest_axis_ = Eigen::Vector3d::UnitX();
   /// Of the square of the tilt towards the weakest axis, over scans.
   struct {

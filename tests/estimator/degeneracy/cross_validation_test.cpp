@@ -203,6 +203,24 @@ TEST(CrossValidatedInformation, TheScatterOfScansDecidesWhatIsFree) {
   EXPECT_FALSE(after_tilts(0.0046, kScatter, std::nullopt).leaves_direction_free());
 }
 
+// Uneven walls that pass the test count with all that a scan holds, larger planes with what both
+// halves agree on, and none where a direction is free.
+TEST(CrossValidatedInformation, UnevenWallsCountWhole) {
+  constexpr double kScatter = 12e-6;
+  RandomStream random(9, "cross_validation");
+  const HalvesInformation scan = scan_corridor(random, 0);
+  const auto even = after_tilts(0.002, kScatter, std::nullopt);
+  const auto uneven = after_tilts(0.0046, kScatter, std::nullopt);
+  const auto larger = after_tilts(0.010, kScatter, std::nullopt);
+  EXPECT_FALSE(even.held_by_uneven_walls());
+  EXPECT_TRUE(uneven.held_by_uneven_walls());
+  EXPECT_FALSE(larger.held_by_uneven_walls());
+  EXPECT_EQ(uneven.applied_to(scan).matrix, scan.within);
+  EXPECT_EQ(uneven.applied_to(scan).vector, scan.within_vector);
+  EXPECT_LT(even.applied_to(scan).matrix(3, 3), 0.01 * scan.within(3, 3));
+  EXPECT_LT(larger.applied_to(scan).matrix(3, 3), 0.5 * scan.within(3, 3));
+}
+
 // However much scans scatter, because a corridor changes, planes that tilt by more are real.
 TEST(CrossValidatedInformation, TiltsBeyondTheLargestSharedOneAreReal) {
   constexpr double kScatter = 100e-6;
