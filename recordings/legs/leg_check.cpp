@@ -200,11 +200,11 @@ std::vector<std::string> LegCheck::frozen_legs() const {
 bool LegCheck::check_frozen(std::vector<ReadingWarning>& found) const {
   const std::vector<std::string> legs = frozen_legs();
   if (legs.empty() || walked_ < kFewestWindows) return false;
-  found.push_back({kAnglesStandStill,
+  found.push_back({"angles of a leg stand still",
                    fmt::format("the joint angles of {} do not change while the robot walks: the "
                                "driver does not read them, or sends the last ones again",
                                fmt::join(legs, ", ")),
-                   WarnedSensor::kLegs});
+                   WarnedSensor::kLegs, WarningKind::kDeadLegSensor});
   return true;
 }
 
@@ -220,12 +220,12 @@ void LegCheck::check_idle(std::vector<ReadingWarning>& found) const {
     }
   }
   if (feet.empty() || most < kFewestStances) return;
-  found.push_back({kFootNeverStands,
+  found.push_back({"a foot never stands",
                    fmt::format("no contact of {} while the robot walks: is a sensor dead, or the "
                                "load below the threshold (contact_threshold, contacts_field)? Only "
                                "the other feet serve",
                                fmt::join(feet, ", ")),
-                   WarnedSensor::kLegs});
+                   WarnedSensor::kLegs, WarningKind::kDeadLegSensor});
 }
 
 /// Warns of legs that no robot walks on.
@@ -326,12 +326,12 @@ void LegCheck::check_turning(std::vector<ReadingWarning>& found) const {
         "wrong, or contacts are late";
   }
   found.push_back(
-      {kFeetAgainstGyro,
+      {"feet in contact contradict the gyro",
        fmt::format("in turns the feet in contact and the gyro contradict each other: "
                    "{:.2g} and {:.2g} times the gyro's rate along x and y, correlation "
                    "{:.2f} and {:.2f} over {} half seconds: {}",
                    x.scale(), y.scale(), along_x, along_y, std::min(x.count(), y.count()), cause),
-       WarnedSensor::kLegs});
+       WarnedSensor::kLegs, WarningKind::kFeetAgainstGyro});
 }
 
 /// Warns of legs whose velocity changes otherwise than the accelerometer says.

@@ -17,12 +17,6 @@
 
 namespace aims {
 
-/// The reason of a warning of feet that turn otherwise than the gyro says.
-inline constexpr const char* kFeetAgainstGyro = "feet in contact contradict the gyro";
-/// Those that need no rates of joints.
-inline constexpr const char* kAnglesStandStill = "angles of a leg stand still";
-inline constexpr const char* kFootNeverStands = "a foot never stands";
-
 /// A foot in contact, in base axes, against the base.
 struct StandingFoot {
   int leg = 0;
