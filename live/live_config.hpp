@@ -7,7 +7,7 @@
 
 #include "core/config.hpp"
 #include "core/error.hpp"
-#include "estimator/estimator_config.hpp"
+#include "estimator/registry.hpp"
 #include "estimator/robot_calibration.hpp"
 #include "live/live_options.hpp"
 #include "recordings/recording_config.hpp"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/trajectory.hpp"
-#include "estimator/motion.hpp"
+#include "estimator/interface/motion.hpp"
 #include "recordings/messages/message_encoding.hpp"
 
 namespace aims {
