@@ -10,7 +10,7 @@
 
 #include "core/config.hpp"
 #include "core/error.hpp"
-#include "estimator/estimator_config.hpp"
+#include "estimator/registry.hpp"
 
 namespace aims {
 

@@ -16,6 +16,7 @@
 #include "estimator/baselines/lins/lins.hpp"
 #include "estimator/baselines/lio_sam/lio_sam.hpp"
 #include "estimator/baselines/loam/loam.hpp"
+#include "estimator/python/python_estimator.hpp"
 
 namespace aims {
 namespace {
@@ -115,6 +116,45 @@ Result<void> check_estimator_name(std::string_view name) {
   return failure(fmt::format("no estimator '{}'; expected one of {}{}", name,
                              fmt::join(known, ", "),
                              near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+}
+
+EstimatorConfigs::EstimatorConfigs() {
+  for (const EstimatorEntry& entry : estimator_registry()) {
+    configs_.emplace(entry.name, entry.config());
+  }
+}
+
+EstimatorConfigs::EstimatorConfigs(const EstimatorConfigs& other) {
+  for (const auto& [name, config] : other.configs_) configs_.emplace(name, config->clone());
+}
+
+EstimatorConfigs& EstimatorConfigs::operator=(const EstimatorConfigs& other) {
+  if (this != &other) *this = EstimatorConfigs(other);
+  return *this;
+}
+
+Result<void> EstimatorConfigs::add_python(std::string_view name) {
+  if (!is_python_name(name) || configs_.contains(name)) return {};
+  auto config = PythonConfig::load(name);
+  if (!config) return tl::unexpected(config.error());
+  configs_.emplace(name, std::make_unique<PythonConfig>(std::move(*config)));
+  return {};
+}
+
+EstimatorConfig* EstimatorConfigs::find(std::string_view name) {
+  const auto found = configs_.find(name);
+  return found == configs_.end() ? nullptr : found->second.get();
+}
+
+const EstimatorConfig* EstimatorConfigs::find(std::string_view name) const {
+  const auto found = configs_.find(name);
+  return found == configs_.end() ? nullptr : found->second.get();
+}
+
+void describe(Fields& fields, EstimatorConfigs& configs) {
+  for (const EstimatorEntry& entry : estimator_registry()) {
+    fields.group_of(entry.name, fields_of(*configs.find(entry.name)));
+  }
 }
 
 Result<std::unique_ptr<Estimator>> make_estimator(std::string_view name, const SensorRig& rig) {

@@ -3,7 +3,7 @@
 
 #include <deque>
 
-#include "estimator/health.hpp"
+#include "estimator/interface/health.hpp"
 
 namespace aims {
 

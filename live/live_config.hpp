@@ -9,7 +9,7 @@
 
 #include "core/config.hpp"
 #include "core/error.hpp"
-#include "estimator/estimator_config.hpp"
+#include "estimator/registry.hpp"
 #include "estimator/robot_calibration.hpp"
 #include "recordings/recording_config.hpp"
 

@@ -137,7 +137,7 @@ void LiveEstimate::warn_of_changes() {
     const ReadingWarning& found = warnings[read_warnings_];
     // Clouds that were dropped here are named where that happens.
     const bool named = missed().dropped > 0 && found.sensor == WarnedSensor::kLidar &&
-                       found.reason.starts_with("messages of the ");
+                       found.kind == WarningKind::kMissingMessages;
     if (start_.concerns(found) && !named) warn(found);
   }
   warn_of_file(log_.state(), "the log cannot be written");

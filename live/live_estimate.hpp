@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/stopwatch.hpp"
-#include "estimator/estimator.hpp"
-#include "estimator/motion.hpp"
+#include "estimator/interface/estimator.hpp"
+#include "estimator/interface/motion.hpp"
 #include "live/clock_watch.hpp"
 #include "live/commands.hpp"
 #include "live/health_hold.hpp"

@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "core/files/csv.hpp"
 #include "core/trajectory.hpp"
-#include "estimator/estimator.hpp"
+#include "estimator/interface/estimator.hpp"
 #include "recordings/stream/recording_reader.hpp"
 
 namespace aims {

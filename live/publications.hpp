@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/trajectory.hpp"
-#include "estimator/health.hpp"
-#include "estimator/motion.hpp"
+#include "estimator/interface/health.hpp"
+#include "estimator/interface/motion.hpp"
 #include "live/live_config.hpp"
 #include "live/transport.hpp"
 #include "recordings/messages/message_encoding.hpp"

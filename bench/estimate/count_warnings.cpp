@@ -10,8 +10,6 @@
 #include <string_view>
 #include <utility>
 
-#include "recordings/legs/joint_rates.hpp"
-#include "recordings/legs/leg_check.hpp"
 #include "recordings/stream/too_short.hpp"
 
 namespace aims {
@@ -141,7 +139,7 @@ void warn_of_feet(EstimateResult& result) {
                      result.setup.topics.contacts, other));
   }
   const bool named = std::ranges::any_of(result.setup.warnings, [](const ReadingWarning& each) {
-    return each.reason == kFeetAgainstGyro || each.reason == kJointRates;
+    return each.kind == WarningKind::kFeetAgainstGyro || each.kind == WarningKind::kJointRates;
   });
   if (const int apart = count_of(result, "feet_in_contact_disagree");
       !named && apart > kDisagree * samples) {

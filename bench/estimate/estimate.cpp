@@ -280,7 +280,7 @@ Result<StreamEnd> stream_into_log(const EstimateConfig& config, RecordingReader&
   if (evidence) evidence->finish();
   // Of clocks that differ each verdict on axes would be one on them.
   const bool clocks = std::ranges::any_of(result.setup.warnings, [](const ReadingWarning& each) {
-    return each.reason.starts_with("clocks of ");
+    return each.kind == WarningKind::kClocks;
   });
   const auto mount =
       evidence && !clocks ? warning_of(*evidence, result.setup.rig.T_body_lidar) : std::nullopt;

@@ -15,7 +15,7 @@
 #include "bench/scoring/trajectory_scoring.hpp"
 #include "core/error.hpp"
 #include "core/trajectory.hpp"
-#include "estimator/estimator_config.hpp"
+#include "estimator/registry.hpp"
 #include "estimator/robot_calibration.hpp"
 #include "recordings/stream/recording_reader.hpp"
 
@@ -59,10 +59,10 @@ struct EstimateResult {
   std::vector<std::filesystem::path> with;  ///< its further files
   RecordingSetup setup;
   BagSummary summary;
-  std::map<std::string, int> counts;        ///< of what was odd in the messages
-  int clouds = 0;                           ///< of the LiDAR
+  std::map<std::string, int> counts;     ///< of what was odd in the messages
+  int clouds = 0;                        ///< of the LiDAR
   std::vector<ReadingWarning> by_lidar;  ///< where LiDAR odometry contradicts gyro or legs
-  bool complete = false;                    ///< false when the observer ended it early
+  bool complete = false;                 ///< false when the observer ended it early
   std::optional<Error> broken;  ///< the bag ended in an error; what came before is estimated
   double recorded_s = 0.0;      ///< of the recording that was read
   double wall_s = 0.0;

@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/files/yaml_config.hpp"
-#include "estimator/estimator_config.hpp"
+#include "estimator/registry.hpp"
 
 namespace aims {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "core/lidar_rings.hpp"
-#include "estimator/estimator_config.hpp"
+#include "estimator/interface/estimator_config.hpp"
 
 namespace aims {
 

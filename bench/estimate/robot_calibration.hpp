@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "estimator/learned.hpp"
+#include "estimator/interface/learned.hpp"
 #include "estimator/robot_calibration.hpp"
 
 namespace aims {

@@ -10,7 +10,7 @@
 #include "bench/scoring/timed_estimator.hpp"
 #include "core/error.hpp"
 #include "core/measurements.hpp"
-#include "estimator/estimator_config.hpp"
+#include "estimator/registry.hpp"
 
 namespace aims {
 

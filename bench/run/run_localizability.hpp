@@ -11,7 +11,7 @@
 #include "bench/metrics/scores.hpp"
 #include "core/files/csv.hpp"
 #include "core/measurements.hpp"
-#include "estimator/estimator.hpp"
+#include "estimator/interface/estimator.hpp"
 #include "sim/robot/truth.hpp"
 #include "sim/simulation_config.hpp"
 

@@ -12,7 +12,7 @@
 #include "bench/scenario/scenario_draws.hpp"
 #include "core/config.hpp"
 #include "core/error.hpp"
-#include "estimator/estimator_config.hpp"
+#include "estimator/registry.hpp"
 #include "sim/sensors/sensor_level.hpp"
 #include "sim/simulation_config.hpp"
 

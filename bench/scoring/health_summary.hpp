@@ -8,7 +8,7 @@
 #include "bench/scoring/health_time.hpp"
 #include "bench/scoring/score_record.hpp"
 #include "core/files/csv.hpp"
-#include "estimator/health.hpp"
+#include "estimator/interface/health.hpp"
 
 namespace aims {
 

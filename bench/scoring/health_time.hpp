@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "estimator/health.hpp"
+#include "estimator/interface/health.hpp"
 
 namespace aims {
 

@@ -9,7 +9,7 @@
 #include "bench/metrics/localizability_scores.hpp"
 #include "bench/metrics/scores.hpp"
 #include "bench/scoring/timed_estimator.hpp"
-#include "estimator/estimator.hpp"
+#include "estimator/interface/estimator.hpp"
 
 namespace aims {
 

@@ -9,9 +9,9 @@
 
 #include "bench/scoring/health_time.hpp"
 #include "core/trajectory.hpp"
-#include "estimator/diagnostics.hpp"
-#include "estimator/estimator.hpp"
-#include "estimator/health.hpp"
+#include "estimator/interface/diagnostics.hpp"
+#include "estimator/interface/estimator.hpp"
+#include "estimator/interface/health.hpp"
 
 namespace aims {
 

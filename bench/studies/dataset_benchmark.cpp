@@ -52,7 +52,7 @@ std::string mount_note(const ExtrinsicConfig& stated, const Pose& pose, std::str
 std::vector<std::string> mount_notes(const RecordingConfig& config, const RecordingSetup& setup) {
   const auto assumed = [&setup](std::string_view key) {
     return std::ranges::any_of(setup.warnings, [key](const ReadingWarning& each) {
-      return each.text.starts_with("NO TRANSFORM") && each.text.find(key) != std::string::npos;
+      return each.kind == WarningKind::kMountAssumed && each.reason.starts_with(key);
     });
   };
   std::vector<std::string> notes;

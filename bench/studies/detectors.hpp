@@ -14,7 +14,7 @@
 #include "bench/studies/suite.hpp"
 #include "core/error.hpp"
 #include "core/files/table.hpp"
-#include "estimator/estimator.hpp"
+#include "estimator/interface/estimator.hpp"
 
 namespace aims {
 

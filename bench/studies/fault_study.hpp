@@ -12,7 +12,7 @@
 #include "bench/studies/stream_faults.hpp"
 #include "core/error.hpp"
 #include "core/files/table.hpp"
-#include "estimator/health.hpp"
+#include "estimator/interface/health.hpp"
 
 namespace aims {
 
@@ -28,7 +28,7 @@ struct FaultCase {
   std::string fault;
   std::string estimator;  ///< its label
   bool success = false;   ///< held against the truth
-  bool partial = false;  ///< poses are missing: the ATE is that of a part of the run
+  bool partial = false;   ///< poses are missing: the ATE is that of a part of the run
   std::optional<double> ate_m;
   HealthState worst = HealthState::kStarting;  ///< after the start
   std::optional<double> first_alarm_s;  ///< first row that is not healthy, since the fault began

@@ -43,9 +43,8 @@ LegStatesConfig leg_states_of(const EskfConfig& config) {
 
 EskfEstimator::EskfEstimator(const EskfConfig& config, const SensorRig& rig,
                              std::unique_ptr<const ScanRule> rule)
-    : config_(config),
-      rig_(rig),
-      queue_(config_.queue, config_.imu, rig.imu_rate_hz, max_leg_speed(config_)),
+    : QueuedEstimator(config.queue, rig, scan_series(), max_leg_speed(config), config.imu),
+      config_(config),
       points_(config_.lidar, config_.map, rig.T_body_lidar.translation),
       lidar_update_(config_, std::move(rule)),
       leg_free_(config_.imu),
@@ -56,7 +55,6 @@ EskfEstimator::EskfEstimator(const EskfConfig& config, const SensorRig& rig,
       robot_(config_, rig.imu_rate_hz),
       feet_(config_.feet, rig, config_.imu.gravity,
             config_.lidar.enabled ? VerticalReference::kHeight : VerticalReference::kLevelGround) {
-  result_.diagnostics.series = scan_series();
   if (const auto known_compliance = known(config_.prior, "joint_compliance")) {
     feet_.compliance().know(known_compliance->mean(0),
                             std::sqrt(known_compliance->covariance(0, 0)));
@@ -64,33 +62,19 @@ EskfEstimator::EskfEstimator(const EskfConfig& config, const SensorRig& rig,
 }
 
 void EskfEstimator::consume(const Delivery& delivery) {
-  queue_.push(delivery);
-  process_ready();
+  QueuedEstimator::consume(delivery);
   if (!judged_ || *queue_.now() - *judged_ >= HealthMonitor::kInterval) {
     append_health(result_.health, judged_health());
   }
 }
 
 void EskfEstimator::finish() {
-  queue_.close();
-  process_ready();
+  QueuedEstimator::finish();
   if (queue_.now()) close_health(result_.health, judged_health());
 }
 
-void EskfEstimator::process_ready() {
-  if (started_ || start()) {
-    while (const std::optional<Correction> next = queue_.pop()) {
-      last_correction_ = std::visit([](const auto& each) { return stamp_of(each); }, *next);
-      std::visit([this](const auto& each) { correct(each); }, *next);
-    }
-    coast();
-  }
-  if (queue_.counted() == counted_) return;
-  counted_ = queue_.counted();
-  for (const auto& [name, count] : queue_.counts()) result_.counts[name] = count;
-}
-
 bool EskfEstimator::start() {
+  if (started_) return true;
   const auto& samples = queue_.imu().samples();
   const auto initial = config_.static_initialization.enabled
                            ? initialize_static(samples, config_.initialization, config_.imu.gravity)
@@ -151,7 +135,8 @@ HealthRow EskfEstimator::judged_health() {
 
 /// The pipeline of one scan. Leg packets since the last scan have corrected the belief at their own
 /// stamps (eskf_legs.cpp); `leg_free_` is the prediction without them, for C_IL of eq. (6).
-void EskfEstimator::correct(const LidarScanPtr& scan) {
+void EskfEstimator::process_scan(const LidarScanPtr& scan) {
+  last_correction_ = scan->end;
   if (scan->end < time_) return count_behind("lidar", scan->end);
   repeat_lost_legs(scan->end);
   predict_to(scan->end);

@@ -10,11 +10,11 @@
 #include "estimator/aims/leg_free_prediction.hpp"
 #include "estimator/aims/lidar_update.hpp"
 #include "estimator/aims/robot_knowledge.hpp"
-#include "estimator/estimator.hpp"
 #include "estimator/filter/kalman_update.hpp"
-#include "estimator/filter/measurement_queue.hpp"
 #include "estimator/filter/motion_variance.hpp"
+#include "estimator/filter/queued_estimator.hpp"
 #include "estimator/ground/ground_constraint.hpp"
+#include "estimator/interface/motion.hpp"
 #include "estimator/legs/feet_odometry.hpp"
 #include "estimator/legs/leg_states.hpp"
 #include "estimator/legs/velocity_noise.hpp"
@@ -22,13 +22,12 @@
 #include "estimator/lidar/deskew.hpp"
 #include "estimator/lidar/scan_points.hpp"
 #include "estimator/lidar/voxel_map.hpp"
-#include "estimator/motion.hpp"
 
 namespace aims {
 
 /// The error-state Kalman filter of all variants: the IMU predicts, leg odometry corrects at its
 /// own stamps, the LiDAR at the end of each scan.
-class EskfEstimator : public Estimator, public MotionSource {
+class EskfEstimator : public QueuedEstimator, public MotionSource {
  public:
   /// `rule`: of LidarUpdate.
   EskfEstimator(const EskfConfig& config, const SensorRig& rig,
@@ -36,7 +35,6 @@ class EskfEstimator : public Estimator, public MotionSource {
 
   void consume(const Delivery& delivery) override;
   void finish() override;
-  const EstimatorResult& result() const override { return result_; }
   void forget_rows() override { keep_last_rows(result_); }
   std::vector<Eigen::Vector3f> map_points() const override { return map_.points(); }
   std::optional<MotionEstimate> motion(Time until) const override;
@@ -47,10 +45,10 @@ class EskfEstimator : public Estimator, public MotionSource {
   const Belief& belief() const { return belief_; }
 
  private:
-  void process_ready();
-  bool start();
-  void correct(const LegOdometrySample& sample);
-  void correct(const LidarScanPtr& scan);
+  bool start() override;
+  void process_legs(const LegOdometrySample& sample) override;
+  void process_scan(const LidarScanPtr& scan) override;
+  void end_delivery() override { coast(); }
   void predict_to(Time stamp);
   void predict(Belief& belief, double duration);
   void meet_legs(bool by_feet);
@@ -92,9 +90,6 @@ class EskfEstimator : public Estimator, public MotionSource {
   void accept(Belief& belief, const Belief& updated);
 
   EskfConfig config_;
-  SensorRig rig_;
-  MeasurementQueue queue_;
-  int counted_ = 0;  ///< events of the queue when its counts were last copied
   ScanPoints points_;
   LidarUpdate lidar_update_;
   LegFreePrediction leg_free_;
@@ -104,7 +99,6 @@ class EskfEstimator : public Estimator, public MotionSource {
   ZeroVelocityDetector zero_velocity_;
   HealthMonitor health_;
   RobotKnowledge robot_;
-  EstimatorResult result_;
 
   bool started_ = false;
   bool stood_still_ = true;     ///< before the start

@@ -49,7 +49,8 @@ Eigen::Matrix3d with_density(const Eigen::Matrix3d& noise, const Eigen::Vector3d
 
 }  // namespace
 
-void EskfEstimator::correct(const LegOdometrySample& sample) {
+void EskfEstimator::process_legs(const LegOdometrySample& sample) {
+  last_correction_ = sample.stamp;
   if (!config_.legs.enabled) return report_pose_without_scan(sample.stamp);
   if (sample.stamp < time_) return count_behind("leg", sample.stamp);
   const Duration period = from_seconds(1.0 / rig_.leg_rate_hz);

@@ -7,7 +7,7 @@
 #include "estimator/aims/scan_diagnostics.hpp"
 #include "estimator/filter/input_monitor.hpp"
 #include "estimator/filter/kalman_update.hpp"
-#include "estimator/health.hpp"
+#include "estimator/interface/health.hpp"
 
 namespace aims {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "estimator/aims/health_monitor.hpp"
-#include "estimator/queued_estimator.hpp"
+#include "estimator/filter/queued_estimator.hpp"
 
 namespace aims {
 

@@ -8,7 +8,7 @@
 #include "estimator/aims/config.hpp"
 #include "estimator/aims/leg_comparison.hpp"
 #include "estimator/filter/entry_information.hpp"
-#include "estimator/learned.hpp"
+#include "estimator/interface/learned.hpp"
 #include "estimator/legs/joint_compliance.hpp"
 
 namespace aims {

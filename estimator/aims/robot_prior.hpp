@@ -12,7 +12,7 @@
 #include "core/config.hpp"
 #include "core/error.hpp"
 #include "estimator/filter/kalman_update.hpp"
-#include "estimator/learned.hpp"
+#include "estimator/interface/learned.hpp"
 
 namespace aims {
 

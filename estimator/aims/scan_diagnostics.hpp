@@ -7,8 +7,8 @@
 
 #include "core/time.hpp"
 #include "estimator/constrained/scan_rule.hpp"
-#include "estimator/diagnostics.hpp"
 #include "estimator/filter/imu_noise.hpp"
+#include "estimator/interface/diagnostics.hpp"
 
 namespace aims {
 

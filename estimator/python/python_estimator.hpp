@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "estimator/estimator_config.hpp"
+#include "estimator/interface/estimator_config.hpp"
 
 namespace aims {
 

@@ -12,8 +12,8 @@
 #include "core/error.hpp"
 #include "core/measurements.hpp"
 #include "core/trajectory.hpp"
-#include "estimator/diagnostics.hpp"
-#include "estimator/estimator.hpp"
+#include "estimator/interface/diagnostics.hpp"
+#include "estimator/interface/estimator.hpp"
 
 namespace aims::python {
 

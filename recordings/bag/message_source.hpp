@@ -94,4 +94,12 @@ class MessageSource {
   MessageSource& operator=(MessageSource&&) = default;
 };
 
+/// Selects all topics and rewinds: as when it was opened.
+inline void start_anew(MessageSource& source) {
+  std::vector<std::string> all;
+  for (const BagConnection& each : source.connections()) all.push_back(each.topic);
+  source.select(all);
+  source.rewind();
+}
+
 }  // namespace aims

@@ -15,10 +15,6 @@
 
 namespace aims {
 
-/// Reasons of warnings of times that cannot serve.
-inline constexpr const char* kBackwardTimes = "point times run backwards";
-inline constexpr const char* kScaledTimes = "point times of another scale";
-
 /// Finds out from the first clouds of a recording how to read them.
 class CloudSurvey {
  public:

@@ -35,13 +35,13 @@ void warn_of(const std::optional<FrameTree::Contradiction>& found, std::string_v
 /// Warns of a sensor that no robot is large enough for.
 void warn_of_distance(const Pose& pose, const std::string& from, const std::string& to,
                       std::string_view key, ReadingNotes& notes) {
-  constexpr double kFarthest = 5.0;  // [m]
+  constexpr double kFar = 5.0;  // [m]
   const double distance = pose.translation.norm();
-  if (distance < kFarthest) return;
+  if (distance < kFar) return;
   notes.warn(fmt::format("{} is far away", key),
              fmt::format("tf puts '{}' {:.4g} m from '{}', expected less than {:.0f} m: are its "
                          "translations in mm? Set recording.{}",
-                         to, distance, from, kFarthest, key),
+                         to, distance, from, kFar, key),
              key == "T_imu_lidar" ? WarnedSensor::kLidar : WarnedSensor::kLegs);
 }
 
@@ -89,7 +89,8 @@ Pose RecordedFrames::extrinsic(const ExtrinsicConfig& configured, const std::str
                          "recording.{}.translation and rotation_rpy_deg, or .file to a "
                          "calibration, or name the frames",
                          named(from), named(to), key),
-             key == "T_imu_lidar" ? WarnedSensor::kLidar : WarnedSensor::kLegs);
+             key == "T_imu_lidar" ? WarnedSensor::kLidar : WarnedSensor::kLegs,
+             WarningKind::kMountAssumed);
   return {};
 }
 

@@ -14,7 +14,7 @@
 #include "recordings/inspection/topic_statistics.hpp"
 #include "recordings/messages/message_values.hpp"
 #include "recordings/source/recording_file.hpp"
-#include "recordings/stream/latency_trend.hpp"
+#include "recordings/stream/latency_changes.hpp"
 #include "recordings/stream/record_clock.hpp"
 #include "recordings/stream/recording_reader.hpp"
 #include "recordings/stream/stream_warnings.hpp"
@@ -225,9 +225,10 @@ Result<BagInfo> bag_info(const std::filesystem::path& bag, const RecordingConfig
     info.used = recording->setup().topics;
     if (!recording->setup().has_legs) info.leg_lack = recording->setup().leg_lack;
     info.notes = recording->setup().notes;
+    info.stamp_faults = recording->setup().stamp_faults;
     for (const ReadingWarning& each : recording->setup().warnings) {
       info.notes.push_back(each.text);
-      if (each.reason == kBackwardTimes || each.reason == kScaledTimes) info.times_text = each.text;
+      if (each.kind == WarningKind::kPointTimes) info.times_text = each.text;
     }
     if (config.point_time_unit == PointTimeUnit::kNone) {
       info.times_text =

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -15,6 +16,7 @@
 #include "core/lie.hpp"
 #include "recordings/bag/chunk_reader.hpp"
 #include "recordings/inspection/clock_offset.hpp"
+#include "recordings/reading_notes.hpp"
 #include "recordings/recording_config.hpp"
 
 namespace aims {
@@ -115,6 +117,7 @@ struct BagInfo {
   bool opens_without_lidar = false;    ///< refused, but not with recording.topics.lidar=none
   bool extrinsics_configured = false;  ///< T_imu_lidar of the configuration is used
   std::vector<std::string> notes;      ///< of `aims estimate`: assumptions and conversions
+  std::map<std::string, StampFault> stamp_faults;  ///< that they state, by topic
   std::string times_text;              ///< where times of points cannot serve; else empty
   std::string rates_text;              ///< where clocks run at different rates; else empty
   std::optional<std::string> refusal;  ///< error of `aims estimate`, if it cannot read the bag

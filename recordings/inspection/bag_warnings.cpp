@@ -100,17 +100,13 @@ const TopicInfo* reference_of(const BagInfo& info) {
 
 /// Whether reading says of a topic that its stamps are off, without the time that the sensor takes.
 bool is_said(const BagInfo& info, const std::string& topic) {
-  return std::ranges::any_of(info.notes, [&topic](const std::string& note) {
-    return note.starts_with(topic + ": stamps are") || note.starts_with(topic + ": stamps do not");
-  });
+  return info.stamp_faults.contains(topic);
 }
 
 /// Whether it says that the stamps of a topic do not serve at all.
 bool is_unstamped(const BagInfo& info, const std::string& topic) {
-  return std::ranges::any_of(info.notes, [&topic](const std::string& note) {
-    return note.starts_with(topic + ": stamps do not") ||
-           note.starts_with(topic + ": stamps are all zero");
-  });
+  const auto fault = info.stamp_faults.find(topic);
+  return fault != info.stamp_faults.end() && fault->second == StampFault::kUnusable;
 }
 
 /// Stamps whose clock is not that of the IMU, or without an IMU not the recorder's.

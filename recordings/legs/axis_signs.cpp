@@ -21,14 +21,17 @@ constexpr double kClearlySmaller = 0.6;  ///< 0.41 on a real robot, 2.4 where th
 
 }  // namespace
 
-void SignedForce::add_imu(const ImuSample& sample, const Eigen::Vector3d& place) {
+ForceStep SignedForce::add_imu(const ImuSample& sample, const Eigen::Vector3d& place) {
   const Eigen::Vector3d force = signs_.cwiseProduct(sample.specific_force);
   const double norm = force.norm();
-  if (!std::isfinite(norm) || !(norm > 0.1) || !sample.angular_velocity.allFinite()) return;
+  if (!std::isfinite(norm) || !(norm > 0.1) || !sample.angular_velocity.allFinite()) {
+    return ForceStep::kRefused;
+  }
   const double step = last_ ? to_seconds(sample.stamp - *last_) : 0.0;
-  if (!last_ || step <= 0.0 || step > kLongestStep) {
+  const bool anew = !last_ || step <= 0.0 || step > kLongestStep;
+  if (anew) {
     R_world_base_ = Eigen::Quaterniond::FromTwoVectors(force, Eigen::Vector3d::UnitZ());
-    before_.reset();
+    window_.reset();
     begin_ = sample.stamp;
     imu_ = legs_ = 0;
     sum_ = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
@@ -38,13 +41,18 @@ void SignedForce::add_imu(const ImuSample& sample, const Eigen::Vector3d& place)
     R_world_base_ =
         (R_world_base_ * so3_exp(step * (sample.angular_velocity + levelled))).normalized();
     velocity_ += R_world_base_ * force * step;
+    time_ += step;
+    ++steps_;
   }
   last_ = sample.stamp;
   turning_ = sample.angular_velocity;
   place_ = place;
   ++imu_;
   sum_.by_force += velocity_;
-  if (sample.stamp - begin_ >= kHalfSecond) close();
+  if (anew) return ForceStep::kBeganAnew;
+  if (sample.stamp - begin_ < kHalfSecond) return ForceStep::kAdded;
+  close();
+  return ForceStep::kClosedWindow;
 }
 
 void SignedForce::add_legs(const Eigen::Vector3d& velocity) {
@@ -58,12 +66,13 @@ void SignedForce::close() {
   if (imu_ >= kFewestOfWindow && legs_ >= kFewestOfWindow) {
     now = Velocities{sum_.by_force / imu_, sum_.by_legs / legs_};
   }
-  const auto before = std::exchange(before_, now);
+  const auto before = std::exchange(window_, now);
+  change_.reset();
   if (before && now) {
-    const Eigen::Vector3d apart =
-        (now->by_force - before->by_force) - (now->by_legs - before->by_legs);
-    const Eigen::Vector3d in_base = yaw_rotation(-yaw_of(R_world_base_)) * apart;
-    squared_ += in_base.head<2>().array().square();
+    const auto R_base_world = yaw_rotation(-yaw_of(R_world_base_));
+    change_ = Velocities{R_base_world * (now->by_force - before->by_force),
+                         R_base_world * (now->by_legs - before->by_legs)};
+    squared_ += (change_->by_force - change_->by_legs).head<2>().array().square();
     ++count_;
   }
   imu_ = legs_ = 0;
@@ -75,9 +84,9 @@ Eigen::Array2d SignedForce::residual() const {
   return (squared_ / static_cast<double>(count_ > 0 ? count_ : 1)).sqrt();
 }
 
-void AxisSigns::add_imu(const ImuSample& sample, const Eigen::Vector3d& place) {
-  measured_.add_imu(sample, place);
+ForceStep AxisSigns::add_imu(const ImuSample& sample, const Eigen::Vector3d& place) {
   for (SignedForce& each : mirrored_) each.add_imu(sample, place);
+  return measured_.add_imu(sample, place);
 }
 
 void AxisSigns::add_legs(const Eigen::Vector3d& velocity) {

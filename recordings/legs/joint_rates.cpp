@@ -75,12 +75,12 @@ std::optional<ReadingWarning> JointRateCheck::warning() const {
   const bool agree = static_cast<double>(near) >= kMostly * static_cast<double>(ratios_.size());
   if (!agree || (scale > kLeastScale && scale < kMostScale)) return std::nullopt;
   return ReadingWarning{
-      kJointRates,
+      "rates of the joints contradict their angles",
       fmt::format("the rates of the joints are {:.3g} times what their angles change by in a "
                   "second: {}; correct the driver, or leave the rates out: then differences of "
                   "the angles serve",
                   scale, cause_of(scale)),
-      WarnedSensor::kLegs};
+      WarnedSensor::kLegs, WarningKind::kJointRates};
 }
 
 }  // namespace aims

@@ -10,9 +10,6 @@
 
 namespace aims {
 
-/// The reason of its warning.
-inline constexpr const char* kJointRates = "rates of the joints contradict their angles";
-
 /// Compares the rates of joints with what their angles change by, in another unit or with another
 /// sign of which no estimate of the velocity is right.
 class JointRateCheck {

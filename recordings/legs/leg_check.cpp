@@ -11,9 +11,6 @@
 namespace aims {
 namespace {
 
-constexpr Duration kWindow = kSecond / 2;
-constexpr double kMaxStep = 0.1;          ///< between samples of the IMU [s]
-constexpr double kLevellingRate = 0.2;    ///< of the attitude to the specific force [1/s]
 constexpr int kFewestSamples = 8;         ///< of a window
 constexpr int kFewestWindows = 8;         ///< that a judgement needs
 constexpr double kTurning = 0.15;         ///< of a window that counts [rad/s]
@@ -49,32 +46,11 @@ bool is_degrees(double scale) { return scale > kLeastDegrees && scale < kMostDeg
 }  // namespace
 
 void LegCheck::add_imu(const ImuSample& sample, const Eigen::Vector3d& place) {
-  signs_.add_imu(sample, place);
-  const double force = sample.specific_force.norm();
-  if (!std::isfinite(force) || !(force > 0.1) || !sample.angular_velocity.allFinite()) return;
-  const Eigen::Vector3d up = sample.specific_force / force;
-  const double step = last_ ? to_seconds(sample.stamp - *last_) : 0.0;
-  if (!last_ || step <= 0.0 || step > kMaxStep) {
-    R_world_base_ = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ());
-    window_ = {};
-    before_.reset();
-    recent_.clear();
-    begin_ = sample.stamp;
-  } else {
-    const Eigen::Vector3d predicted = R_world_base_.conjugate() * Eigen::Vector3d::UnitZ();
-    const Eigen::Vector3d turned =
-        step * (sample.angular_velocity + kLevellingRate * up.cross(predicted));
-    R_world_base_ = (R_world_base_ * so3_exp(turned)).normalized();
-    velocity_ += R_world_base_ * sample.specific_force * step;
-    imu_time_ += step;
-    ++imu_steps_;
-  }
-  last_ = sample.stamp;
-  turning_ = sample.angular_velocity;
-  place_ = place;
-  ++window_.imu;
-  window_.by_force += velocity_;
-  if (sample.stamp - begin_ >= kWindow) close();
+  const ForceStep step = signs_.add_imu(sample, place);
+  if (step == ForceStep::kClosedWindow) close();
+  if (step != ForceStep::kBeganAnew) return;
+  window_ = {};
+  recent_.clear();
 }
 
 void LegCheck::add_joints(const std::array<double, kJointCount>& angles,
@@ -88,13 +64,14 @@ void LegCheck::add_joints(const std::array<double, kJointCount>& angles,
 
 void LegCheck::add_feet(const std::vector<StandingFoot>& feet, const Eigen::Vector3d& velocity,
                         bool differenced) {
-  if (!last_ || feet.empty() || !velocity.allFinite()) return;
+  const SignedForce& imu = signs_.measured();
+  if (!imu.has_begun() || feet.empty() || !velocity.allFinite()) return;
   signs_.add_legs(velocity);
   ++window_.legs;
-  window_.by_legs += R_world_base_ * (velocity + turning_.cross(place_));
   window_.speed += velocity.norm();
   window_.forward += velocity.x();
-  const Eigen::Vector3d up = R_world_base_.conjugate() * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d& turning = imu.turning();
+  const Eigen::Vector3d up = imu.R_world_base().conjugate() * Eigen::Vector3d::UnitZ();
   for (const StandingFoot& foot : feet) {
     const Eigen::Vector3d from_hip = foot.position - hip_in_base(foot.leg, geometry_);
     Stance& stance = window_.stances[static_cast<std::size_t>(foot.leg)];
@@ -102,14 +79,14 @@ void LegCheck::add_feet(const std::vector<StandingFoot>& feet, const Eigen::Vect
     stance.depth -= up.dot(from_hip);
     stance.apart += from_hip.x();
     stance.below -= from_hip.z();
-    if (!differenced) add_rises({{foot.leg, -(foot.velocity + turning_.cross(foot.position)).z()}});
+    if (!differenced) add_rises({{foot.leg, -(foot.velocity + turning.cross(foot.position)).z()}});
   }
   for (std::size_t i = 1; i < feet.size(); ++i) {
     // The velocities of feet that stand differ by the turning of the base alone.
     const Eigen::Vector3d apart = feet[i].position - feet[0].position;
     const Eigen::Vector3d faster = feet[i].velocity - feet[0].velocity;
     ++window_.pairs;
-    window_.gyro += turning_.z();
+    window_.gyro += turning.z();
     window_.by_feet += Eigen::Vector2d(apart.y() * faster.x(), -apart.x() * faster.y());
     window_.weight += Eigen::Vector2d(apart.y() * apart.y(), apart.x() * apart.x());
   }
@@ -131,7 +108,6 @@ void LegCheck::close() {
     compare_slopes();
   }
   window_ = {};
-  begin_ = *last_;
 }
 
 void LegCheck::count_walking() {
@@ -168,27 +144,18 @@ void LegCheck::compare_turning() {
 }
 
 void LegCheck::compare_velocities() {
-  std::optional<Velocities> now;
-  if (window_.legs >= kFewestSamples && window_.imu >= kFewestSamples) {
-    now = Velocities{window_.by_force / window_.imu, window_.by_legs / window_.legs};
-  }
-  compare_direction(now);
-  const auto before = std::exchange(before_, now);
-  if (!before || !now) return;
-  const auto in_base = [&](const Eigen::Vector3d& change) {
-    const double yaw = yaw_of(R_world_base_);
-    return Eigen::Vector2d((yaw_rotation(-yaw) * change).head<2>());
-  };
-  const Eigen::Vector2d by_force = in_base(now->by_force - before->by_force);
-  const Eigen::Vector2d by_legs = in_base(now->by_legs - before->by_legs);
+  compare_direction();
+  const auto& change = signs_.measured().change();
+  if (!change) return;
   for (int axis = 0; axis < 2; ++axis) {
-    if (std::abs(by_force[axis]) < kAccelerating) continue;
-    changes_[static_cast<std::size_t>(axis)].add(by_legs[axis], by_force[axis]);
+    if (std::abs(change->by_force[axis]) < kAccelerating) continue;
+    changes_[static_cast<std::size_t>(axis)].add(change->by_legs[axis], change->by_force[axis]);
   }
 }
 
 /// Compares the change of velocity over some windows, as where the robot starts or stops.
-void LegCheck::compare_direction(const std::optional<Velocities>& now) {
+void LegCheck::compare_direction() {
+  const auto& now = signs_.measured().window();
   if (!now) return recent_.clear();
   recent_.push_back(*now);
   if (recent_.size() <= kStartWindows) return;
@@ -233,11 +200,11 @@ std::vector<std::string> LegCheck::frozen_legs() const {
 bool LegCheck::check_frozen(std::vector<ReadingWarning>& found) const {
   const std::vector<std::string> legs = frozen_legs();
   if (legs.empty() || walked_ < kFewestWindows) return false;
-  found.push_back({kAnglesStandStill,
+  found.push_back({"angles of a leg stand still",
                    fmt::format("the joint angles of {} do not change while the robot walks: the "
                                "driver does not read them, or sends the last ones again",
                                fmt::join(legs, ", ")),
-                   WarnedSensor::kLegs});
+                   WarnedSensor::kLegs, WarningKind::kDeadLegSensor});
   return true;
 }
 
@@ -253,12 +220,12 @@ void LegCheck::check_idle(std::vector<ReadingWarning>& found) const {
     }
   }
   if (feet.empty() || most < kFewestStances) return;
-  found.push_back({kFootNeverStands,
+  found.push_back({"a foot never stands",
                    fmt::format("no contact of {} while the robot walks: is a sensor dead, or the "
                                "load below the threshold (contact_threshold, contacts_field)? Only "
                                "the other feet serve",
                                fmt::join(feet, ", ")),
-                   WarnedSensor::kLegs});
+                   WarnedSensor::kLegs, WarningKind::kDeadLegSensor});
 }
 
 /// Warns of legs that no robot walks on.
@@ -359,17 +326,17 @@ void LegCheck::check_turning(std::vector<ReadingWarning>& found) const {
         "wrong, or contacts are late";
   }
   found.push_back(
-      {kFeetAgainstGyro,
+      {"feet in contact contradict the gyro",
        fmt::format("in turns the feet in contact and the gyro contradict each other: "
                    "{:.2g} and {:.2g} times the gyro's rate along x and y, correlation "
                    "{:.2f} and {:.2f} over {} half seconds: {}",
                    x.scale(), y.scale(), along_x, along_y, std::min(x.count(), y.count()), cause),
-       WarnedSensor::kLegs});
+       WarnedSensor::kLegs, WarningKind::kFeetAgainstGyro});
 }
 
 /// Warns of legs whose velocity changes otherwise than the accelerometer says.
 void LegCheck::check_acceleration(std::vector<ReadingWarning>& found) const {
-  const bool fast = imu_steps_ > kLeastRate * imu_time_;
+  const bool fast = signs_.measured().imu_rate() > kLeastRate;
   for (std::size_t axis = 0; axis < changes_.size(); ++axis) {
     const SignalAgreement& change = changes_[axis];
     if (change.count() < kFewestWindows) continue;

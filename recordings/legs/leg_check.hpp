@@ -17,12 +17,6 @@
 
 namespace aims {
 
-/// The reason of a warning of feet that turn otherwise than the gyro says.
-inline constexpr const char* kFeetAgainstGyro = "feet in contact contradict the gyro";
-/// Those that need no rates of joints.
-inline constexpr const char* kAnglesStandStill = "angles of a leg stand still";
-inline constexpr const char* kFootNeverStands = "a foot never stands";
-
 /// A foot in contact, in base axes, against the base.
 struct StandingFoot {
   int leg = 0;
@@ -69,26 +63,21 @@ class LegCheck {
   };
   /// Sums over half a second.
   struct Window {
-    int imu = 0, legs = 0, pairs = 0;
-    Eigen::Vector3d by_force = Eigen::Vector3d::Zero();  ///< velocity of the IMU, world axes
-    Eigen::Vector3d by_legs = Eigen::Vector3d::Zero();   ///< likewise
-    double speed = 0.0;                                  ///< by the legs, without direction
-    double forward = 0.0;                                ///< by the legs, along x of the base
-    double gyro = 0.0;                                   ///< turn rate about z
+    int legs = 0, pairs = 0;
+    double speed = 0.0;    ///< by the legs, without direction
+    double forward = 0.0;  ///< by the legs, along x of the base
+    double gyro = 0.0;     ///< turn rate about z
     /// Turn rate about z by what pairs of feet do along x and y, weighted, and the weights.
     Eigen::Vector2d by_feet = Eigen::Vector2d::Zero(), weight = Eigen::Vector2d::Zero();
     std::array<Stance, kLegCount> stances;
     std::optional<std::array<double, kJointCount>> angles;  ///< the first
     std::array<bool, kJointCount> moved{};                  ///< the angle changed, or may have
   };
-  /// Mean velocities of a window.
-  struct Velocities {
-    Eigen::Vector3d by_force, by_legs;
-  };
+  using Velocities = SignedForce::Velocities;
   void close();
   void compare_turning();
   void compare_velocities();
-  void compare_direction(const std::optional<Velocities>& now);
+  void compare_direction();
   void compare_slopes();
   void count_walking();
   std::vector<std::string> frozen_legs() const;
@@ -104,17 +93,8 @@ class LegCheck {
   LegGeometry geometry_;
   std::array<bool, kLegCount> without_contacts_;
   AxisSigns signs_;
-  std::optional<Time> last_;  ///< stamp of the IMU
-  Time begin_ = 0;            ///< of the window
-  Eigen::Quaterniond R_world_base_ = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();  ///< integrated, of the IMU [m/s]
-  Eigen::Vector3d turning_ = Eigen::Vector3d::Zero();   ///< the last angular velocity [rad/s]
-  Eigen::Vector3d place_ = Eigen::Vector3d::Zero();     ///< of the IMU in the base [m]
   Window window_;
-  double imu_time_ = 0.0;             ///< between samples of the IMU, in all [s]
-  int imu_steps_ = 0;                 ///< how many
-  std::optional<Velocities> before_;  ///< of the window before
-  std::deque<Velocities> recent_;     ///< of the windows before
+  std::deque<Velocities> recent_;  ///< of the windows before
   /// Starts and stops that the accelerometer sees in the direction of the legs, or opposite.
   int along_ = 0, against_ = 0;
   std::array<SignalAgreement, 2> turns_;  ///< of feet, along x and y, and gyro

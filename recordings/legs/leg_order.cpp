@@ -225,7 +225,6 @@ Result<LegOrder> LegOrderFinder::find(const LegGeometry& geometry,
   LegOrder order;
   order.joints = order_of(*kinds, candidate.leg_of_slot);
   order.feet = candidate.leg_of_entry;
-  order.feet_differ = order.feet != Legs{0, 1, 2, 3};
   order.text = text_of(candidate, !joints, !feet_named);
   if (rows.empty()) {
     order.text += " (assumed: the robot does not walk)";

@@ -19,8 +19,7 @@ namespace aims {
 struct LegOrder {
   JointOrder joints{};
   std::array<int, kLegCount> feet = {0, 1, 2, 3};  ///< leg of each entry of the contacts
-  std::string text;          ///< "FL hip 0, thigh 1, ...": what was decided, and how surely
-  bool feet_differ = false;  ///< from FL, FR, RL, RR
+  std::string text;  ///< "FL hip 0, thigh 1, ...": what was decided, and how surely
 };
 
 /// Indices of the abductions, hips and knees, each in the order of the array.

@@ -75,7 +75,7 @@ std::vector<ReadingWarning> LegStream::warnings() const {
     // They spoil the velocities of feet that joints tell.
     if (config_.source == LegSource::kKinematics) {
       std::erase_if(found, [](const ReadingWarning& each) {
-        return each.reason != kAnglesStandStill && each.reason != kFootNeverStands;
+        return each.kind != WarningKind::kDeadLegSensor;
       });
     }
     found.insert(found.begin(), std::move(*rates));

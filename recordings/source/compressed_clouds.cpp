@@ -114,10 +114,7 @@ std::string format_of(MessageSource& source, const BagConnection& clouds,
     const auto view = decoder.decode((*message)->data);
     if (view) format = std::string(view->text("format").value_or(""));
   }
-  std::vector<std::string> all;
-  for (const BagConnection& each : source.connections()) all.push_back(each.topic);
-  source.select(all);
-  source.rewind();
+  start_anew(source);
   return format;
 }
 

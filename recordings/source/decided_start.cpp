@@ -13,44 +13,35 @@ bool has_topic(const MessageSource& recording, const char* topic) {
 }
 
 /// The recording behind the message on `kForgottenTopic`, which was recorded at `start`.
-class WithoutForgotten final : public MessageSource {
+class WithoutForgotten final : public WrappedSource {
  public:
   WithoutForgotten(std::unique_ptr<MessageSource> recording, Time start)
-      : recording_(std::move(recording)), summary_(recording_->summary()) {
-    summary_.start = start;
+      : WrappedSource(std::move(recording)) {
+    summary_ = source_.summary();
+    summary_->start = start;
   }
-
-  std::string name() const override { return recording_->name(); }
-  const std::vector<BagConnection>& connections() const override {
-    return recording_->connections();
-  }
-  const BagSummary& summary() const override { return summary_; }
 
   void select(std::span<const std::string> topics) override {
     std::vector<std::string> selected(topics.begin(), topics.end());
     selected.emplace_back(kForgottenTopic);
-    recording_->select(selected);
+    WrappedSource::select(selected);
   }
 
   Result<std::optional<BagMessage>> next() override {
     while (!begun_) {
-      auto message = recording_->next();
+      auto message = read();
       if (!message || !*message) return message;
       begun_ = (*message)->connection->topic == kForgottenTopic;
     }
-    auto message = recording_->next();
-    summary_.repeated_messages = recording_->summary().repeated_messages;
-    return message;
+    return read();
   }
 
   void rewind() override {
     begun_ = false;
-    recording_->rewind();
+    WrappedSource::rewind();
   }
 
  private:
-  std::unique_ptr<MessageSource> recording_;
-  BagSummary summary_;
   bool begun_ = false;
 };
 
@@ -65,12 +56,12 @@ bool has_forgotten(const MessageSource& recording) { return has_topic(recording,
 void DecidedStart::select(std::span<const std::string> topics) {
   std::vector<std::string> selected(topics.begin(), topics.end());
   selected.emplace_back(kDecidedTopic);
-  recording_.select(selected);
+  WrappedSource::select(selected);
 }
 
 Result<std::optional<BagMessage>> DecidedStart::next() {
   if (ended_) return std::nullopt;
-  auto message = recording_.next();
+  auto message = read();
   ended_ = message && *message && (*message)->connection->topic == kDecidedTopic;
   if (ended_) return std::nullopt;
   return message;
@@ -78,19 +69,16 @@ Result<std::optional<BagMessage>> DecidedStart::next() {
 
 void DecidedStart::rewind() {
   ended_ = false;
-  recording_.rewind();
+  WrappedSource::rewind();
 }
 
 Result<void> leave_out_forgotten(std::unique_ptr<MessageSource>& recording) {
   if (!has_forgotten(*recording)) return {};
-  std::vector<std::string> topics = {kForgottenTopic};
-  recording->select(topics);
+  recording->select(std::vector<std::string>{kForgottenTopic});
   recording->rewind();
   const auto message = recording->next();
   if (!message) return tl::unexpected(message.error());
-  for (const BagConnection& each : recording->connections()) topics.push_back(each.topic);
-  recording->select(topics);
-  recording->rewind();
+  start_anew(*recording);
   if (!*message) return {};
   const Time start = (*message)->record_time;
   recording = std::make_unique<WithoutForgotten>(std::move(recording), start);

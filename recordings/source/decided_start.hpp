@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "recordings/bag/message_source.hpp"
+#include "recordings/bag/wrapped_source.hpp"
 
 namespace aims {
 
@@ -21,22 +21,16 @@ inline constexpr const char* kForgottenTopic = "/aims/forgotten";
 bool is_of_live_estimate(const MessageSource& recording);
 
 /// The recording up to the message on `kDecidedTopic`: what a live estimate had when it decided.
-class DecidedStart final : public MessageSource {
+class DecidedStart final : public WrappedSource {
  public:
   /// `recording` must outlive it.
-  explicit DecidedStart(MessageSource& recording) : recording_(recording) {}
+  explicit DecidedStart(MessageSource& recording) : WrappedSource(recording) {}
 
-  std::string name() const override { return recording_.name(); }
-  const std::vector<BagConnection>& connections() const override {
-    return recording_.connections();
-  }
-  const BagSummary& summary() const override { return recording_.summary(); }
   void select(std::span<const std::string> topics) override;
   Result<std::optional<BagMessage>> next() override;
   void rewind() override;
 
  private:
-  MessageSource& recording_;
   bool ended_ = false;
 };
 

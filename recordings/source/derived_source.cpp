@@ -7,15 +7,11 @@
 namespace aims {
 
 DerivedSource::DerivedSource(std::unique_ptr<MessageSource> source)
-    : source_(std::move(source)), connections_(source_->connections()) {
+    : WrappedSource(std::move(source)), last_(summary().start) {
   for (const BagConnection& each : connections_) {
     recorded_.insert(each.id);
     wanted_.insert(each.id);
   }
-}
-
-const BagConnection* DerivedSource::connection(std::uint32_t id) const {
-  return &*std::ranges::find(connections_, id, &BagConnection::id);
 }
 
 std::uint32_t DerivedSource::add_topic(std::string topic, const MessageType& type,
@@ -32,7 +28,7 @@ std::uint32_t DerivedSource::add_topic(std::string topic, const MessageType& typ
     return recorded_.contains(each.id) && !from.contains(each.id) && each.type == type.name &&
            each.messages > 0 && !each.is_part;
   });
-  added.messages = elsewhere ? 0 : messages;
+  added.messages = elsewhere && !from.empty() ? 0 : messages;
   const std::uint32_t id = added.id;
   connections_.push_back(std::move(added));
   from_[id] = from;
@@ -64,37 +60,47 @@ void DerivedSource::select(std::span<const std::string> topics) {
     seen_.insert(from->second.begin(), from->second.end());
     for (const std::uint32_t id : from->second) needed.insert(connection(id)->topic);
   }
-  source_->select(std::vector<std::string>(needed.begin(), needed.end()));
+  source_.select(std::vector<std::string>(needed.begin(), needed.end()));
 }
 
 void DerivedSource::give(std::uint32_t id, Time record_time, MessageBytes bytes) {
-  if (wanted_.contains(id)) made_.push_back({id, record_time, std::move(bytes)});
+  made_.push_back({id, record_time, std::move(bytes)});
+}
+
+/// The next message that was made, if it is wanted.
+std::optional<BagMessage> DerivedSource::take() {
+  while (!made_.empty()) {
+    lent_ = std::move(made_.front());
+    made_.pop_front();
+    if (!wanted_.contains(lent_->id)) continue;
+    return BagMessage{connection(lent_->id), lent_->time, lent_->bytes.view(), 0};
+  }
+  return std::nullopt;
 }
 
 Result<std::optional<BagMessage>> DerivedSource::next() {
   while (true) {
-    if (!made_.empty()) {
-      lent_ = std::move(made_.front());
-      made_.pop_front();
-      return BagMessage{connection(lent_->id), lent_->time, lent_->bytes.view(), 0};
+    if (auto made = take()) return made;
+    auto message = read();
+    if (!message) return message;
+    if (!*message) {
+      finish(last_);
+      return take();
     }
-    auto message = source_->next();
-    if (!message || !*message) return message;
+    last_ = (*message)->record_time;
     const std::uint32_t id = (*message)->connection->id;
     if (seen_.contains(id)) {
       if (auto seen = see(**message); !seen) return tl::unexpected(seen.error());
     }
-    if (!wanted_.contains(id)) continue;
-    BagMessage same = **message;
-    same.connection = connection(id);
-    return std::optional<BagMessage>(same);
+    if (wanted_.contains(id)) return message;
   }
 }
 
 void DerivedSource::rewind() {
-  source_->rewind();
+  WrappedSource::rewind();
   made_.clear();
   lent_.reset();
+  last_ = summary().start;
   restart();
 }
 

@@ -9,20 +9,16 @@
 #include <set>
 #include <span>
 #include <string>
-#include <vector>
 
-#include "recordings/bag/message_source.hpp"
+#include "recordings/bag/wrapped_source.hpp"
 #include "recordings/messages/message_bytes.hpp"
 #include "recordings/messages/message_type.hpp"
 
 namespace aims {
 
 /// A recording with further topics, whose messages are made of recorded ones.
-class DerivedSource : public MessageSource {
+class DerivedSource : public WrappedSource {
  public:
-  std::string name() const override { return source_->name(); }
-  const std::vector<BagConnection>& connections() const override { return connections_; }
-  const BagSummary& summary() const override { return source_->summary(); }
   void select(std::span<const std::string> topics) override;
   Result<std::optional<BagMessage>> next() override;
   void rewind() override;
@@ -31,8 +27,8 @@ class DerivedSource : public MessageSource {
   explicit DerivedSource(std::unique_ptr<MessageSource> source);
 
   /// Adds a topic, made of the messages of `from`; of these many messages. Where the recording has
-  /// a topic of that type elsewhere, this one is only chosen by its name. `joined_from`: what it is
-  /// made of, in words.
+  /// a topic of that type elsewhere, this one is only chosen by its name, unless it is made of no
+  /// message. `joined_from`: what it is made of, in words.
   std::uint32_t add_topic(std::string topic, const MessageType& type, std::uint64_t messages,
                           const std::set<std::uint32_t>& from, std::string joined_from = {});
 
@@ -45,6 +41,10 @@ class DerivedSource : public MessageSource {
   /// Sees each message that a wanted topic is made of.
   virtual Result<void> see(const BagMessage& message) = 0;
 
+  /// Gives what is left at the end, which for a running robot comes again and again; `last`: record
+  /// time of the last message.
+  virtual void finish(Time /*last*/) {}
+
   /// Forgets what was seen.
   virtual void restart() {}
 
@@ -55,14 +55,13 @@ class DerivedSource : public MessageSource {
     MessageBytes bytes;
   };
 
-  const BagConnection* connection(std::uint32_t id) const;
+  std::optional<BagMessage> take();
 
-  std::unique_ptr<MessageSource> source_;
-  std::vector<BagConnection> connections_;
   std::set<std::uint32_t> recorded_, wanted_, seen_;  ///< connections
   std::map<std::uint32_t, std::set<std::uint32_t>> from_;
   std::deque<Made> made_;
   std::optional<Made> lent_;  ///< that the caller has
+  Time last_;                 ///< record time of the last message
 };
 
 }  // namespace aims

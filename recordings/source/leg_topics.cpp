@@ -403,10 +403,7 @@ std::vector<LegTopics> find_leg_topics(MessageSource& source) {
         each.loads && !each.joints && !each.places && is_on_change(first_samples(source, each));
   }
   name_by_place(source, found);
-  std::set<std::string> topics;
-  for (const BagConnection& each : all) topics.insert(each.topic);
-  source.select(std::vector<std::string>(topics.begin(), topics.end()));
-  source.rewind();
+  start_anew(source);
   for (LegTopics& each : found) {
     number_legs(each.parts);
     std::ranges::stable_sort(each.parts, {}, [](const LegPart& part) {

@@ -7,8 +7,9 @@
 namespace aims {
 
 RatedSource::RatedSource(std::unique_ptr<MessageSource> source, double rate, Time start)
-    : source_(std::move(source)), rate_(rate), start_(start), summary_(source_->summary()) {
-  summary_.end = rated(summary_.end);
+    : WrappedSource(std::move(source)), rate_(rate), start_(start) {
+  summary_ = source_.summary();
+  summary_->end = rated(summary_->end);
 }
 
 Time RatedSource::rated(Time record_time) const {
@@ -17,8 +18,7 @@ Time RatedSource::rated(Time record_time) const {
 }
 
 Result<std::optional<BagMessage>> RatedSource::next() {
-  auto message = source_->next();
-  summary_.repeated_messages = source_->summary().repeated_messages;
+  auto message = read();
   if (!message || !*message) return message;
   (*message)->record_time = rated((*message)->record_time);
   if ((*message)->sampled) (*message)->sampled = rated(*(*message)->sampled);

@@ -19,7 +19,7 @@ constexpr Duration kFirstSpan = 5 * kSecond;
 constexpr std::size_t kFewest = 10;               ///< messages of a topic
 constexpr Duration kLongest = Duration{1} << 61;  ///< of what a clock can be off [ns]: 73 years
 /// Between the latencies of sensors and recorders on one clock.
-constexpr Duration kMaxLatencyDifference = kSecond / 4;
+constexpr Duration kMaxSpread = kSecond / 4;
 
 /// When a file was recorded, and by how much that is behind the stamps of its topics.
 struct Clock {
@@ -96,7 +96,7 @@ bool overlap(const Clock& a, const Clock& b, Duration shift) {
 bool is_of_another_recorder(const Clock& a, const Clock& b, Duration shift) {
   const bool parts = std::ranges::any_of(
       b.topics, [&a](const std::string& topic) { return a.topics.contains(topic); });
-  if (parts || std::abs(shift) < kMaxLatencyDifference || !overlap(a, b, shift)) return false;
+  if (parts || std::abs(shift) < kMaxSpread || !overlap(a, b, shift)) return false;
   return !overlap(a, b, 0) || 4 * apart(a, b, shift) < apart(a, b, 0);
 }
 

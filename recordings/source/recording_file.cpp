@@ -14,10 +14,10 @@
 
 #include "recordings/bag/bag_reader.hpp"
 #include "recordings/bag/merged_source.hpp"
+#include "recordings/bag/wrapped_source.hpp"
 #include "recordings/csv/csv_reader.hpp"
 #include "recordings/mcap/mcap_reader.hpp"
 #include "recordings/mcap/mcap_writer.hpp"
-#include "recordings/pcap/packet_source.hpp"
 #include "recordings/pcap/pcap_reader.hpp"
 #include "recordings/rosbag2/rosbag2_metadata.hpp"
 #include "recordings/rosbag2/rosbag2_reader.hpp"
@@ -26,6 +26,7 @@
 #include "recordings/source/decided_start.hpp"
 #include "recordings/source/joined_legs.hpp"
 #include "recordings/source/message_stamps.hpp"
+#include "recordings/source/packet_source.hpp"
 #include "recordings/source/recorder_clocks.hpp"
 #include "recordings/source/split_imu.hpp"
 #include "recordings/source/spread_batches.hpp"
@@ -37,25 +38,18 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kFewMessages = 10;  ///< may have one record time by chance
 
-class StampedSource final : public MessageSource {
+class StampedSource final : public WrappedSource {
  public:
   StampedSource(std::unique_ptr<MessageSource> source, MessageStamps stamps, Time start, Time end)
-      : source_(std::move(source)),
-        stamps_(std::move(stamps)),
-        summary_(source_->summary()),
-        clock_(start) {
-    summary_.start = start;
-    summary_.end = end;
-    summary_.recorded_at_stamps = true;
+      : WrappedSource(std::move(source)), stamps_(std::move(stamps)), clock_(start) {
+    summary_ = source_.summary();
+    summary_->start = start;
+    summary_->end = end;
+    summary_->recorded_at_stamps = true;
   }
 
-  std::string name() const override { return source_->name(); }
-  const std::vector<BagConnection>& connections() const override { return source_->connections(); }
-  const BagSummary& summary() const override { return summary_; }
-  void select(std::span<const std::string> topics) override { source_->select(topics); }
-
   Result<std::optional<BagMessage>> next() override {
-    auto message = source_->next();
+    auto message = read();
     if (!message || !*message) return message;
     clock_ = std::max(clock_, stamps_.of(**message).value_or(0));
     (*message)->record_time = clock_;
@@ -63,14 +57,12 @@ class StampedSource final : public MessageSource {
   }
 
   void rewind() override {
-    source_->rewind();
-    clock_ = summary_.start;
+    WrappedSource::rewind();
+    clock_ = summary().start;
   }
 
  private:
-  std::unique_ptr<MessageSource> source_;
   MessageStamps stamps_;
-  BagSummary summary_;
   Time clock_;  ///< latest stamp so far
 };
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "recordings/bag/wrapped_source.hpp"
 #include "recordings/median.hpp"
 #include "recordings/messages/inertial_topics.hpp"
 #include "recordings/messages/message_decoder.hpp"
@@ -87,10 +88,10 @@ std::map<std::uint32_t, FirstTimes> first_times(MessageSource& source) {
   return times;
 }
 
-class SpreadSource final : public MessageSource {
+class SpreadSource final : public WrappedSource {
  public:
   SpreadSource(std::unique_ptr<MessageSource> source, std::map<std::uint32_t, BatchRate> rates)
-      : source_(std::move(source)), rates_(std::move(rates)), connections_(source_->connections()) {
+      : WrappedSource(std::move(source)), rates_(std::move(rates)) {
     for (BagConnection& each : connections_) {
       const auto rate = rates_.find(each.id);
       if (rate != rates_.end()) each.batch = rate->second.samples;
@@ -98,12 +99,8 @@ class SpreadSource final : public MessageSource {
     restart();
   }
 
-  std::string name() const override { return source_->name(); }
-  const std::vector<BagConnection>& connections() const override { return connections_; }
-  const BagSummary& summary() const override { return source_->summary(); }
-  void select(std::span<const std::string> topics) override { source_->select(topics); }
   void rewind() override {
-    source_->rewind();
+    WrappedSource::rewind();
     restart();
   }
 
@@ -111,18 +108,16 @@ class SpreadSource final : public MessageSource {
     lent_.reset();
     while (held_.empty() || !held_.front().ready) {
       if (ended_) break;
-      auto message = source_->next();
+      auto message = read();
       if (!message) return message;
       if (!*message) {
         ended_ = true;
         close_all();
         continue;
       }
-      BagMessage& given = **message;
-      const std::uint32_t id = given.connection->id;
-      given.connection = connection(id);
+      const BagMessage& given = **message;
       close_before(given.record_time);
-      const bool spread = rates_.contains(id);
+      const bool spread = rates_.contains(given.connection->id);
       if (held_.empty() && !spread) return message;
       hold(given, spread);
     }
@@ -152,10 +147,6 @@ class SpreadSource final : public MessageSource {
     std::vector<std::size_t> places = {};  ///< of its samples, counted from the first one ever held
     Time last = 0;                         ///< record time
   };
-
-  const BagConnection* connection(std::uint32_t id) const {
-    return &*std::ranges::find(connections_, id, &BagConnection::id);
-  }
 
   void restart() {
     held_.clear();
@@ -205,9 +196,7 @@ class SpreadSource final : public MessageSource {
     }
   }
 
-  std::unique_ptr<MessageSource> source_;
   std::map<std::uint32_t, BatchRate> rates_;  ///< by connection
-  std::vector<BagConnection> connections_;
   std::map<std::uint32_t, Batch> batches_;
   std::deque<Held> held_;
   std::optional<Held> lent_;
@@ -285,10 +274,7 @@ void spread_batches(std::unique_ptr<MessageSource>& source) {
     if (!times.are_unstamped()) continue;
     if (const auto rate = batch_rate(times.recorded)) rates.emplace(id, *rate);
   }
-  std::set<std::string> topics;
-  for (const BagConnection& each : source->connections()) topics.insert(each.topic);
-  source->select(std::vector<std::string>(topics.begin(), topics.end()));
-  source->rewind();
+  start_anew(*source);
   if (rates.empty()) return;
   source = std::make_unique<SpreadSource>(std::move(source), std::move(rates));
 }

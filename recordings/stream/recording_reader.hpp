@@ -34,6 +34,8 @@ struct RecordingSetup {
   std::vector<std::string> notes;
   /// Assumptions that decide the result, and faults that spoil it; what changes midway is added.
   std::vector<ReadingWarning> warnings;
+  std::map<std::string, StampFault>
+      stamp_faults;               ///< by topic, where stamps do not serve as they are
   std::string leg_lack;           ///< why there are no legs, as far as it is known
   bool contacts_unknown = false;  ///< of legs that lack: the loads of the feet tell none yet
 };

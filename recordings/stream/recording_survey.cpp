@@ -334,6 +334,7 @@ Result<RecordingPlan> RecordingSurvey::decide(const std::filesystem::path& bag,
   }
   plan.setup.notes = std::move(notes_.notes);
   plan.setup.warnings = std::move(notes_.warnings);
+  plan.setup.stamp_faults = std::move(notes_.stamp_faults);
   return plan;
 }
 

@@ -39,7 +39,7 @@ ReadingWarning warning_of_missing(Role role, const std::string& topic, double mi
           fmt::format("{}: {:.0f} of {:.0f} messages are missing, by the gaps in their stamps "
                       "({:.1f} %){}: the network, the recorder or the driver lost them",
                       topic, missing, all, 1e2 * missing / all, in_long_gaps),
-          sensor};
+          sensor, WarningKind::kMissingMessages};
 }
 
 ReadingWarning warning_of_imu_leap(const std::string& imu, const std::string& lidar,
@@ -56,7 +56,8 @@ ReadingWarning warning_of_rates(const std::string& topic, const std::string& oth
       fmt::format("clocks of {} and {} run at different rates", topic, other),
       fmt::format("{}: by the record times its stamps run {:.3g} % {} than those of {}: no delay "
                   "corrects it; synchronise the clocks, or have the drivers stamp by one",
-                  topic, 1e2 * std::abs(growth), growth < 0.0 ? "faster" : "slower", other)};
+                  topic, 1e2 * std::abs(growth), growth < 0.0 ? "faster" : "slower", other),
+      WarnedSensor::kAny, WarningKind::kClocks};
 }
 
 ReadingWarning warning_of_record_rate(double rate) {

@@ -94,8 +94,9 @@ bool RecordingSurvey::warn_of_imu_clock(const std::map<Role, Duration>& behind,
   const Duration middle = least + (most - least) / 2;
   if (std::abs(middle) < kMaxLatencyDifference || most - least > kMaxLatencyDifference)
     return false;
+  notes_.stamp_faults.emplace(reference, StampFault::kOtherClock);
   notes_.warn(
-      fmt::format("clocks of {} and all other topics differ", reference),
+      WarningKind::kClocks, fmt::format("clocks of {} and all other topics differ", reference),
       fmt::format("{}: stamps are {:.3f} s {} those of {}, which agree: set "
                   "recording.imu_delay={:.3f} if its clock differs",
                   reference, std::abs(to_seconds(middle)), middle > 0 ? "ahead of" : "behind",
@@ -111,7 +112,8 @@ void RecordingSurvey::warn_of_clocks(const RecordingPlan& plan, const std::strin
   for (const auto& [role, behind] : apart) {
     if (std::abs(behind) < kMaxLatencyDifference) continue;
     const std::string& topic = topic_of(topics_, role);
-    notes_.warn(fmt::format("clocks of {} and {} differ", topic, reference),
+    notes_.stamp_faults.emplace(topic, StampFault::kOtherClock);
+    notes_.warn(WarningKind::kClocks, fmt::format("clocks of {} and {} differ", topic, reference),
                 fmt::format("{}: stamps are {:.3f} s {} those of other topics: set "
                             "recording.{}_delay={:.3f} if their clocks differ",
                             topic, std::abs(to_seconds(behind)), behind > 0 ? "behind" : "ahead of",

@@ -206,6 +206,7 @@ void RecordingSurvey::note_record_times(Role role, const std::string& topic) {
            : "stamps do not advance from message to message (a clock that stands still, or whole "
              "seconds): ";
   const std::string text = fmt::format("{}: {}record times are used", topic, what);
+  notes_.stamp_faults[topic] = StampFault::kUnusable;
   if (zero && !batched) return notes_.push_back(text);
   notes_.warn(fmt::format("stamps of {} do not advance", topic),
               text + (batched ? ", which come in batches of no steady rate: times within a batch "

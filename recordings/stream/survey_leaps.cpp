@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "recordings/median.hpp"
+#include "recordings/stream/latency_changes.hpp"
 #include "recordings/stream/recording_survey.hpp"
-#include "recordings/stream/series_change.hpp"
 #include "recordings/stream/survey_latencies.hpp"
 
 namespace aims {
@@ -34,9 +34,8 @@ std::optional<RecordingSurvey::LatencyGrowth> RecordingSurvey::growth_of(const S
   constexpr std::size_t kLeast = 10;  // messages of each third
   const std::size_t third = each.stamps.size() / 3;
   if (each.unstamped || third < kLeast || stamps_stand(each.stamps)) return std::nullopt;
-  const SeriesGrowth latency(medians_of_thirds(each.latencies));
-  const auto stamps = medians_of_thirds(each.stamps);
-  const LatencyGrowth found = {latency.grown, stamps[2] - stamps[0], latency.is_even()};
+  const SeriesGrowth latency = aims::growth_of(each.latencies);
+  const LatencyGrowth found = {latency.grown, aims::growth_of(each.stamps).grown, latency.is_even};
   return found.span > 0 && found.rate() > 0.0 ? std::optional(found) : std::nullopt;
 }
 
@@ -107,13 +106,12 @@ Duration RecordingSurvey::latency_of(const Seen& each, const std::optional<Clock
 /// Where latencies change once for all: stamps or record times leap there.
 std::optional<RecordingSurvey::Leap> RecordingSurvey::leap_of(const Seen& each) {
   constexpr std::size_t kLeast = 5;  // messages before and behind it
-  const auto& latencies = each.latencies;
-  if (latencies.size() < 2 * kLeast) return std::nullopt;
-  const auto half = [](Duration /*step*/) { return kMaxLatencyDifference / 2; };
-  const auto found = largest_leap(latencies, kLeast, kMaxLatencyDifference, half);
-  const bool lasts = found && 10 * found->strays < latencies.size();
-  if (!lasts || std::abs(found->step()) < kMaxLatencyDifference) return std::nullopt;
-  return Leap{found->at, each.stamps[found->at] + latencies[found->at], -found->step()};
+  const auto found = aims::leap_of(each.latencies, {.margin = kLeast,
+                                                    .least = kMaxLatencyDifference,
+                                                    .least_sudden = kMaxLatencyDifference,
+                                                    .near = kMaxLatencyDifference / 2});
+  if (!found) return std::nullopt;
+  return Leap{found->at, each.stamps[found->at] + each.latencies[found->at], -found->step};
 }
 
 /// Whether another topic goes on there as before: then it is no leap of the recorder's clock.

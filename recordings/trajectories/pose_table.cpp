@@ -16,7 +16,9 @@
 #include "core/files/iso_time.hpp"
 #include "core/files/number_lines.hpp"
 #include "core/text.hpp"
+#include "recordings/trajectories/angle_unit.hpp"
 #include "recordings/trajectories/pose_columns.hpp"
+#include "recordings/trajectories/table_cells.hpp"
 
 namespace aims {
 namespace {
@@ -24,52 +26,9 @@ namespace {
 constexpr std::size_t kColumns = 8;
 constexpr std::size_t kPositionColumns = 4;
 
-/// A cell without blanks, quotes and the sign of a comment in front.
-std::string_view bare(std::string_view cell) {
-  const std::size_t begin = std::min(cell.find_first_not_of(" \t\r\"#%"), cell.size());
-  return trimmed(cell.substr(begin), " \t\r\"");
-}
-
-/// A number whose decimals may follow a comma.
-bool is_number_with_comma(std::string_view word) {
-  std::string text(word);
-  if (const std::size_t comma = text.find(','); comma != std::string::npos) text[comma] = '.';
-  return parse_number(text, false).has_value();
-}
-
 /// A number, or a date and time.
 bool is_stamp(std::string_view word) {
   return is_number_with_comma(word) || parse_iso_time(word).has_value();
-}
-
-/// The sign between the cells of a line; a blank for any number of blanks and tabs.
-char separator_of(std::string_view line) {
-  if (line.find(';') != std::string_view::npos) return ';';
-  const bool commas = line.find(',') != std::string_view::npos;
-  if (std::ranges::count(line, '\t') >= 3 && line.find(",\t") == std::string_view::npos)
-    return '\t';
-  if (!commas) return ' ';
-  const auto words = words_of(line);
-  const bool decimal = words.size() >= kPositionColumns &&
-                       std::ranges::all_of(words, is_number_with_comma) &&
-                       std::ranges::none_of(words, [](auto word) { return word.ends_with(','); });
-  return decimal ? ' ' : ',';
-}
-
-std::vector<std::string_view> cells_of(std::string_view line, char separator) {
-  std::vector<std::string_view> cells;
-  if (separator == ' ') {
-    for (const std::string_view word : words_of(line)) {
-      if (const auto cell = bare(word); !cell.empty()) cells.push_back(cell);
-    }
-    return cells;
-  }
-  while (true) {
-    const std::size_t end = std::min(line.find(separator), line.size());
-    cells.push_back(bare(line.substr(0, end)));
-    if (end == line.size()) return cells;
-    line.remove_prefix(end + 1);
-  }
 }
 
 bool is_digits(std::string_view word) {
@@ -102,35 +61,6 @@ int decimals_of(StampUnit unit) {
       return 0;
   }
 }
-
-/// Tells the unit of roll, pitch and yaw without one. Radians go beyond 2 pi only where a yaw is
-/// unwrapped: from a first one that is not, and no faster than robots turn.
-class AngleUnit {
- public:
-  void add(double stamp, const Eigen::Vector3d& angles) {
-    constexpr double kWindow = 0.5;  // [s]
-    if (!angles.allFinite() || !std::isfinite(stamp)) return;
-    largest_ = std::max(largest_, angles.cwiseAbs().maxCoeff());
-    const bool is_wide = angles.head<2>().cwiseAbs().maxCoeff() > kTurn;
-    is_no_radian_ = is_no_radian_ || is_wide || (!since_ && largest_ > kTurn);
-    const double passed = since_ ? stamp - *since_ : kWindow;
-    if (passed < kWindow) return;
-    if (since_) fastest_ = std::max(fastest_, (angles - angles_).norm() / passed);
-    since_ = stamp;
-    angles_ = angles;
-  }
-
-  bool is_beyond_turn() const { return largest_ > kTurn; }
-  bool is_degrees() const { return is_beyond_turn() && (is_no_radian_ || fastest_ > kTurn); }
-  double largest() const { return largest_; }
-
- private:
-  static constexpr double kTurn = 2.0 * std::numbers::pi;  ///< also a second: faster than robots
-  double largest_ = 0.0, fastest_ = 0.0;                   ///< as they are written
-  bool is_no_radian_ = false;
-  std::optional<double> since_;
-  Eigen::Vector3d angles_ = Eigen::Vector3d::Zero();
-};
 
 /// How the rows of a table are read.
 struct RowLayout {
@@ -225,30 +155,6 @@ struct RowLayout {
     return text + '\n';
   }
 };
-
-/// Takes the lines of a table, which may end in a carriage return alone.
-std::string_view take_line(std::string_view& text) {
-  const std::size_t feed = std::min(text.find('\n'), text.size());
-  std::size_t end = std::min(text.find('\r'), feed);
-  if (end + 1 == feed) end = feed;
-  const std::string_view line = text.substr(0, end);
-  text.remove_prefix(std::min(end + 1, text.size()));
-  return line;
-}
-
-/// Without a comment behind the row.
-std::string_view without_comment(std::string_view line) {
-  const std::size_t first = std::min(line.find_first_not_of(" \t"), line.size());
-  return line.substr(0, line.find('#', std::min(first + 1, line.size())));
-}
-
-bool is_comment(std::string_view line) {
-  const std::size_t first = line.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return true;
-  // The separator that a spreadsheet is told.
-  if (line.substr(first).starts_with("sep=")) return true;
-  return line[first] == '#' || line[first] == '%' || line.substr(first).starts_with("//");
-}
 
 /// Reads a table line by line.
 class TableReader {
@@ -426,10 +332,6 @@ class TableReader {
   std::optional<RowLayout> layout_;
   int number_ = 0;
 };
-
-}  // namespace
-
-namespace {
 
 /// Whether a comment in front of rows of so many numbers names columns of another order or unit.
 bool names_other_order(std::string_view text, std::size_t count) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/learned.hpp"
+#include "estimator/interface/learned.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/motion.hpp"
+#include "estimator/interface/motion.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "core/config.hpp"
-#include "estimator/estimator_config.hpp"
+#include "estimator/registry.hpp"
 
 namespace aims::test {
 

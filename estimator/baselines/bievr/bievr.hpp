@@ -9,7 +9,7 @@
 #include "estimator/baselines/bievr/inertial_window.hpp"
 #include "estimator/baselines/bievr/registration.hpp"
 #include "estimator/baselines/bievr/sampling.hpp"
-#include "estimator/queued_estimator.hpp"
+#include "estimator/filter/queued_estimator.hpp"
 
 namespace aims::bievr {
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/config.hpp"
-#include "estimator/estimator_config.hpp"
 #include "estimator/filter/measurement_queue.hpp"
+#include "estimator/interface/estimator_config.hpp"
 
 namespace aims::bievr {
 

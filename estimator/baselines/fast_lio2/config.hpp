@@ -3,8 +3,8 @@
 
 #include "core/config.hpp"
 #include "estimator/baselines/fast_lio2/prediction.hpp"
-#include "estimator/estimator_config.hpp"
 #include "estimator/filter/measurement_queue.hpp"
+#include "estimator/interface/estimator_config.hpp"
 
 namespace aims::fast_lio2 {
 

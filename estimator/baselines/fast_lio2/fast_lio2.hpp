@@ -8,8 +8,8 @@
 #include "estimator/baselines/fast_lio2/point_map.hpp"
 #include "estimator/baselines/fast_lio2/registration.hpp"
 #include "estimator/baselines/fast_lio2/scan_points.hpp"
-#include "estimator/diagnostics.hpp"
-#include "estimator/queued_estimator.hpp"
+#include "estimator/filter/queued_estimator.hpp"
+#include "estimator/interface/diagnostics.hpp"
 
 namespace aims::fast_lio2 {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "estimator/baselines/features/feature_solver.hpp"
-#include "estimator/diagnostics.hpp"
-#include "estimator/queued_estimator.hpp"
+#include "estimator/filter/queued_estimator.hpp"
+#include "estimator/interface/diagnostics.hpp"
 
 namespace aims::features {
 

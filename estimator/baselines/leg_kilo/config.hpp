@@ -3,8 +3,8 @@
 
 #include "core/config.hpp"
 #include "estimator/baselines/leg_kilo/filter.hpp"
-#include "estimator/estimator_config.hpp"
 #include "estimator/filter/measurement_queue.hpp"
+#include "estimator/interface/estimator_config.hpp"
 
 namespace aims::leg_kilo {
 

@@ -9,8 +9,8 @@
 #include "estimator/baselines/leg_kilo/observations.hpp"
 #include "estimator/baselines/leg_kilo/plane_map.hpp"
 #include "estimator/baselines/leg_kilo/scan_groups.hpp"
-#include "estimator/diagnostics.hpp"
-#include "estimator/queued_estimator.hpp"
+#include "estimator/filter/queued_estimator.hpp"
+#include "estimator/interface/diagnostics.hpp"
 
 namespace aims::leg_kilo {
 

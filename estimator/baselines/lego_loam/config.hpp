@@ -8,8 +8,8 @@
 #include "estimator/baselines/lego_loam/segmented_features.hpp"
 #include "estimator/baselines/pose_graph/loop_closure.hpp"
 #include "estimator/baselines/pose_graph/pose_graph.hpp"
-#include "estimator/estimator_config.hpp"
 #include "estimator/filter/measurement_queue.hpp"
+#include "estimator/interface/estimator_config.hpp"
 
 namespace aims::lego_loam {
 

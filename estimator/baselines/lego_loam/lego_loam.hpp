@@ -6,7 +6,7 @@
 #include "estimator/baselines/features/scan_estimator.hpp"
 #include "estimator/baselines/lego_loam/config.hpp"
 #include "estimator/baselines/lego_loam/mapping.hpp"
-#include "estimator/diagnostics.hpp"
+#include "estimator/interface/diagnostics.hpp"
 
 namespace aims::lego_loam {
 

@@ -8,8 +8,8 @@
 #include "estimator/baselines/features/feature_solver.hpp"
 #include "estimator/baselines/lego_loam/config.hpp"
 #include "estimator/baselines/lins/filter.hpp"
-#include "estimator/estimator_config.hpp"
 #include "estimator/filter/measurement_queue.hpp"
+#include "estimator/interface/estimator_config.hpp"
 
 namespace aims::lins {
 

@@ -6,7 +6,7 @@
 #include "estimator/baselines/features/scan_estimator.hpp"
 #include "estimator/baselines/lego_loam/mapping.hpp"
 #include "estimator/baselines/lins/robocentric_odometry.hpp"
-#include "estimator/diagnostics.hpp"
+#include "estimator/interface/diagnostics.hpp"
 
 namespace aims::lins {
 

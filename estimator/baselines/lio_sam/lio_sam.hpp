@@ -9,10 +9,10 @@
 #include "core/config.hpp"
 #include "estimator/baselines/lio_sam/mapping.hpp"
 #include "estimator/baselines/lio_sam/scan_features.hpp"
-#include "estimator/diagnostics.hpp"
-#include "estimator/estimator_config.hpp"
 #include "estimator/filter/measurement_queue.hpp"
-#include "estimator/queued_estimator.hpp"
+#include "estimator/filter/queued_estimator.hpp"
+#include "estimator/interface/diagnostics.hpp"
+#include "estimator/interface/estimator_config.hpp"
 
 namespace aims::lio_sam {
 

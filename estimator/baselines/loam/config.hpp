@@ -6,8 +6,8 @@
 #include "estimator/baselines/features/feature_matches.hpp"
 #include "estimator/baselines/features/feature_solver.hpp"
 #include "estimator/baselines/features/ring_features.hpp"
-#include "estimator/estimator_config.hpp"
 #include "estimator/filter/measurement_queue.hpp"
+#include "estimator/interface/estimator_config.hpp"
 
 namespace aims::loam {
 

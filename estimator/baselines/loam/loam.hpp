@@ -7,7 +7,7 @@
 #include "estimator/baselines/features/feature_solver.hpp"
 #include "estimator/baselines/features/scan_estimator.hpp"
 #include "estimator/baselines/loam/config.hpp"
-#include "estimator/diagnostics.hpp"
+#include "estimator/interface/diagnostics.hpp"
 
 namespace aims::loam {
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "estimator/diagnostics.hpp"
+#include "estimator/interface/diagnostics.hpp"
 
 namespace aims::points {
 

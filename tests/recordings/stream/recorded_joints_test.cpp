@@ -8,7 +8,6 @@
 #include "core/leg_kinematics.hpp"
 #include "recordings/inspection/bag_info.hpp"
 #include "recordings/legs/contact_detector.hpp"
-#include "recordings/legs/joint_rates.hpp"
 #include "recordings/messages/message_types.hpp"
 #include "tests/recordings/stream/recorded_deliveries.hpp"
 #include "tests/recordings/stream/recorded_trot.hpp"
@@ -132,7 +131,9 @@ TEST_F(RecordedTrot, AnglesInDegreesAreNamedAndConverted) {
 }
 
 TEST_F(RecordedTrot, RatesThatContradictTheAnglesAreNamedOnceAndByInfo) {
-  const auto is_rates = [](const ReadingWarning& each) { return each.reason == kJointRates; };
+  const auto is_rates = [](const ReadingWarning& each) {
+    return each.kind == WarningKind::kJointRates;
+  };
   for (const auto& [scale, cause] :
        {std::pair(180.0 / std::numbers::pi, "the rates are in deg/s beside angles in rad"),
         {-1.0, "the rates have the opposite sign"},

@@ -7,7 +7,7 @@
 #include "recordings/frames/frame_tree.hpp"
 #include "recordings/legs/leg_names.hpp"
 #include "recordings/recording_config.hpp"
-#include "recordings/stream/latency_trend.hpp"
+#include "recordings/stream/latency_changes.hpp"
 #include "tests/recordings/stream/recorded_deliveries.hpp"
 
 namespace aims {

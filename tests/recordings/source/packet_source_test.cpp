@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Packets of a LiDAR in a room, as messages of a bag; the oracle is the room.
-#include "recordings/pcap/packet_source.hpp"
+#include "recordings/source/packet_source.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "estimator/diagnostics.hpp"
+#include "estimator/interface/diagnostics.hpp"
 
 #include <algorithm>
 #include <limits>

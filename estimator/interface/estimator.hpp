@@ -10,9 +10,9 @@
 #include "core/error.hpp"
 #include "core/measurements.hpp"
 #include "core/trajectory.hpp"
-#include "estimator/diagnostics.hpp"
-#include "estimator/health.hpp"
-#include "estimator/learned.hpp"
+#include "estimator/interface/diagnostics.hpp"
+#include "estimator/interface/health.hpp"
+#include "estimator/interface/learned.hpp"
 
 namespace aims {
 
@@ -25,7 +25,7 @@ struct EstimatorResult {
   Trajectory trajectory;
   /// The trajectory after loop closing or smoothing, in the same frame; none: not re-optimized.
   std::optional<Trajectory> optimized;
-  Diagnostics diagnostics;            ///< one row per scan (empty for `leg`)
+  Diagnostics diagnostics;  ///< one row per scan (empty for `leg`)
   /// Stamps of poses that were not finite or not rigid, and so are not in the trajectory.
   std::vector<Time> invalid_poses;
   std::map<std::string, int> counts;  ///< e.g. late, duplicate, non-finite measurements

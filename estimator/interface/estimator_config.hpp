@@ -2,16 +2,12 @@
 #pragma once
 
 #include <concepts>
-#include <functional>
-#include <map>
 #include <memory>
-#include <string>
-#include <string_view>
 #include <utility>
 
 #include "core/config.hpp"
 #include "core/lidar_rings.hpp"
-#include "estimator/estimator.hpp"
+#include "estimator/interface/estimator.hpp"
 
 namespace aims {
 
@@ -75,34 +71,5 @@ class ConfigOf final : public EstimatorConfig {
  private:
   Config config_;
 };
-
-/// One configuration per registered estimator, by its name, and of those in Python that were added;
-/// copies are deep.
-class EstimatorConfigs {
- public:
-  /// The defaults of every estimator.
-  EstimatorConfigs();
-  EstimatorConfigs(const EstimatorConfigs& other);
-  EstimatorConfigs(EstimatorConfigs&&) noexcept = default;
-  EstimatorConfigs& operator=(const EstimatorConfigs& other);
-  EstimatorConfigs& operator=(EstimatorConfigs&&) noexcept = default;
-  ~EstimatorConfigs() = default;
-
-  /// Adds the class of a name like "python:module.Class" unless it is there. Error when it cannot
-  /// be imported (estimator/python/python_estimator.hpp); nothing for other names.
-  Result<void> add_python(std::string_view name);
-
-  /// The configuration of the estimator `name`, or nullptr.
-  EstimatorConfig* find(std::string_view name);
-  const EstimatorConfig* find(std::string_view name) const;
-
- private:
-  friend void describe(Fields& fields, EstimatorConfigs& configs);
-
-  std::map<std::string, std::unique_ptr<EstimatorConfig>, std::less<>> configs_;
-};
-
-/// Each configuration under its name, in the order of the registry.
-void describe(Fields& fields, EstimatorConfigs& configs);
 
 }  // namespace aims

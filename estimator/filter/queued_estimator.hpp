@@ -4,9 +4,9 @@
 #include <limits>
 #include <vector>
 
-#include "estimator/estimator.hpp"
-#include "estimator/estimator_config.hpp"
 #include "estimator/filter/measurement_queue.hpp"
+#include "estimator/interface/estimator.hpp"
+#include "estimator/interface/estimator_config.hpp"
 
 namespace aims {
 
@@ -20,8 +20,11 @@ class QueuedEstimator : public Estimator {
  protected:
   /// `series`: reported of each scan. Leg samples faster than `max_leg_speed` [m/s] are dropped.
   QueuedEstimator(const QueueConfig& queue, const SensorRig& rig, std::vector<SeriesInfo> series,
-                  double max_leg_speed = std::numeric_limits<double>::infinity());
+                  double max_leg_speed = std::numeric_limits<double>::infinity(),
+                  const ImuPropagationConfig& imu = {});
 
+  /// Whether scans and leg samples are wanted; until then they wait.
+  virtual bool start() { return true; }
   virtual void process_scan(const LidarScanPtr& scan) = 0;
   virtual void process_legs(const LegOdometrySample&) {}
   /// After the scans and leg samples that a delivery made ready.
@@ -33,6 +36,8 @@ class QueuedEstimator : public Estimator {
 
  private:
   void process_ready();
+
+  int counted_ = 0;  ///< events of the queue when its counts were last copied
 };
 
 }  // namespace aims

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "recordings/pcap/packet_source.hpp"
+#include "recordings/source/packet_source.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <deque>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -21,6 +20,7 @@
 #include "recordings/messages/message_types.hpp"
 #include "recordings/pcap/ouster_packets.hpp"
 #include "recordings/pcap/packet_decoder.hpp"
+#include "recordings/source/derived_source.hpp"
 
 namespace aims {
 namespace {
@@ -80,10 +80,7 @@ std::optional<std::string> recorded_metadata(MessageSource& source) {
     if (const auto data = view->text("data")) text = std::string(*data);
     if (text) break;
   }
-  std::vector<std::string> all;
-  for (const BagConnection& each : source.connections()) all.push_back(each.topic);
-  source.select(all);
-  source.rewind();
+  start_anew(source);
   return text;
 }
 
@@ -102,8 +99,6 @@ Result<OusterMetadata> recorded_ouster_metadata(MessageSource& source, const std
                   source.name(), topic, beside.filename().string()));
 }
 
-constexpr std::string_view kFramesTopic = "/tf_static";
-
 /// A topic of packets.
 struct Stream {
   const PacketType* type = nullptr;
@@ -116,165 +111,78 @@ struct Stream {
   std::vector<std::byte> early;          ///< the last packet of information before the points
 };
 
+/// Whether the packets of a topic describe the points of another one.
+bool is_information(const BagConnection& packets) {
+  return packet_type_of(packets.type)->maker == LidarMaker::kRobosense &&
+         topic_of_points(packets.topic) != packets.topic;
+}
+
+/// Nothing for a topic without packets that can be read.
+std::optional<Stream> stream_of(const BagConnection& packets) {
+  const PacketType* type = packet_type_of(packets.type);
+  if (type == nullptr || packets.messages == 0) return std::nullopt;
+  auto decoder = MessageDecoder::create(packets.type, packets.definition, packets.format);
+  if (!decoder) return std::nullopt;
+  Stream stream;
+  stream.type = type;
+  stream.message = std::move(*decoder);
+  return stream;
+}
+
 /// A recording with what its packets become.
-class PacketSource final : public MessageSource {
+class PacketSource final : public DerivedSource {
  public:
   PacketSource(std::unique_ptr<MessageSource> source, std::optional<OusterMetadata> ouster)
-      : source_(std::move(source)),
-        ouster_(std::move(ouster)),
-        connections_(source_->connections()) {
-    for (const BagConnection& each : connections_) recorded_.insert(each.id);
+      : DerivedSource(std::move(source)), ouster_(std::move(ouster)) {
     const std::vector<BagConnection> recorded = connections_;
-    for (const BagConnection& each : recorded) add_stream(each);
-    attach_information();
-    if (ouster_) frames_ = add_connection(recorded.front(), kFramesTopic, transforms_type());
-    for (const BagConnection& each : connections_) wanted_.insert(each.id);
-    restart();
-  }
-
-  std::string name() const override { return source_->name(); }
-  const std::vector<BagConnection>& connections() const override { return connections_; }
-  const BagSummary& summary() const override { return source_->summary(); }
-
-  void select(std::span<const std::string> topics) override {
-    wanted_.clear();
-    std::set<std::string> needed;
-    for (const BagConnection& each : connections_) {
-      if (std::ranges::find(topics, each.topic) == topics.end()) continue;
-      wanted_.insert(each.id);
-      if (recorded_.contains(each.id)) needed.insert(each.topic);
+    for (const BagConnection& each : recorded) {
+      auto stream = stream_of(each);
+      if (stream && !is_information(each)) add_stream(each, *std::move(stream), recorded);
     }
-    for (const auto& [id, stream] : streams_) {
-      if (wanted_.contains(stream.made)) needed.insert(connection(id)->topic);
+    if (ouster_) {
+      frames_ = add_topic("/tf_static", transforms_type(), recorded.front().messages, {});
     }
-    source_->select(std::vector<std::string>(needed.begin(), needed.end()));
-  }
-
-  Result<std::optional<BagMessage>> next() override {
-    while (true) {
-      if (auto made = take()) return made;
-      if (ended_) return std::optional<BagMessage>();
-      auto message = source_->next();
-      if (!message) return message;
-      if (!*message) {
-        finish();
-        continue;
-      }
-      last_time_ = (*message)->record_time;
-      const std::uint32_t id = (*message)->connection->id;
-      const auto stream = streams_.find(id);
-      if (stream != streams_.end()) {
-        if (auto decoded = decode(stream->second, **message); !decoded) {
-          return tl::unexpected(decoded.error());
-        }
-      }
-      if (!wanted_.contains(id)) continue;
-      BagMessage same = **message;
-      same.connection = connection(id);
-      return std::optional<BagMessage>(same);
-    }
-  }
-
-  void rewind() override {
-    source_->rewind();
     restart();
   }
 
  private:
-  struct Made {
-    std::uint32_t id = 0;
-    Time time = 0;
-    MessageBytes bytes;
-  };
-
-  const BagConnection* connection(std::uint32_t id) const {
-    return &*std::ranges::find(connections_, id, &BagConnection::id);
-  }
-
-  std::uint32_t add_connection(const BagConnection& packets, std::string_view topic,
-                               const MessageType& type) {
-    std::uint32_t id = 0;
-    for (const BagConnection& each : connections_) id = std::max(id, each.id + 1);
-    BagConnection added;
-    added.id = id;
-    added.topic = topic;
-    added.type = type.name;
-    added.md5 = type.md5;
-    added.definition = type.definition;
-    // Where the recording has such a topic, that is chosen unless this one is named.
-    const bool recorded = std::ranges::any_of(connections_, [&](const BagConnection& each) {
-      return recorded_.contains(each.id) && each.type == type.name && each.messages > 0;
-    });
-    added.messages = recorded && topic != kFramesTopic ? 0 : packets.messages;
-    connections_.push_back(std::move(added));
-    return id;
-  }
-
-  void add_stream(const BagConnection& packets) {
-    const PacketType* type = packet_type_of(packets.type);
-    if (type == nullptr || packets.messages == 0) return;
-    auto decoder = MessageDecoder::create(packets.type, packets.definition, packets.format);
-    if (!decoder) return;
-    Stream stream;
-    stream.type = type;
-    stream.message = std::move(*decoder);
+  void add_stream(const BagConnection& packets, Stream stream,
+                  const std::vector<BagConnection>& recorded) {
+    std::map<std::uint32_t, Stream> information;
+    std::set<std::uint32_t> from = {packets.id};
+    for (const BagConnection& each : recorded) {
+      auto informing = stream_of(each);
+      if (!informing || !is_information(each)) continue;
+      if (topic_of_points(each.topic) != packets.topic) continue;
+      from.insert(each.id);
+      informing->informs = packets.id;
+      information.emplace(each.id, *std::move(informing));
+    }
     // An Ouster has a topic each for LiDAR and IMU, told apart by the size of their packets.
     const bool imu =
-        type->maker == LidarMaker::kOuster && packets.topic.find("imu") != std::string::npos;
-    if (type->maker == LidarMaker::kRobosense && topic_of_points(packets.topic) != packets.topic) {
-      information_.emplace(packets.id, std::move(stream));
-      return;
-    }
+        stream.type->maker == LidarMaker::kOuster && packets.topic.find("imu") != std::string::npos;
     stream.kind = imu ? kImu : kScan;
-    stream.made = add_connection(packets, packets.topic + (imu ? "/imu" : "/points"),
-                                 imu ? imu_type() : point_cloud_type());
+    stream.made = add_topic(packets.topic + (imu ? "/imu" : "/points"),
+                            imu ? imu_type() : point_cloud_type(), packets.messages, from);
     streams_.emplace(packets.id, std::move(stream));
-  }
-
-  /// Makes the packets of information go to the decoder of their points.
-  void attach_information() {
-    for (auto& [id, stream] : information_) {
-      const std::string points = topic_of_points(connection(id)->topic);
-      const auto found = std::ranges::find_if(
-          streams_, [&](const auto& each) { return connection(each.first)->topic == points; });
-      if (found == streams_.end()) continue;
-      stream.made = found->second.made;
-      stream.informs = found->first;
-      streams_.emplace(id, std::move(stream));
-    }
+    streams_.merge(information);
   }
 
   /// Decoders as at the start of the recording.
-  void restart() {
-    made_.clear();
-    lent_.reset();
-    ended_ = false;
-    last_time_ = summary().start;
+  void restart() override {
+    finished_ = false;
     const std::shared_ptr<PacketDecoder> ouster =
         ouster_ ? std::shared_ptr<PacketDecoder>(ouster_decoder(*ouster_, false)) : nullptr;
     for (auto& [id, stream] : streams_) {
       stream.packets = stream.type->maker == LidarMaker::kOuster ? ouster : nullptr;
       stream.early.clear();
     }
-    if (ouster_)
-      made_.push_back({frames_, summary().start, ouster_frames(*ouster_, summary().start)});
-  }
-
-  /// The next message that is made, if it is wanted.
-  std::optional<BagMessage> take() {
-    while (!made_.empty()) {
-      lent_ = std::move(made_.front());
-      made_.pop_front();
-      if (!wanted_.contains(lent_->id)) continue;
-      return BagMessage{connection(lent_->id), lent_->time, lent_->bytes.view(), 0};
-    }
-    return std::nullopt;
+    const Time start = summary().start;
+    if (ouster_) give(frames_, start, ouster_frames(*ouster_, start));
   }
 
   void keep(const Stream& stream, std::optional<PacketMessage> made, Time time) {
-    if (made && made->kind == stream.kind) {
-      made_.push_back({stream.made, time, std::move(made->bytes)});
-    }
+    if (made && made->kind == stream.kind) give(stream.made, time, std::move(made->bytes));
   }
 
   static std::shared_ptr<PacketDecoder> decoder_of(const Stream& stream) {
@@ -308,7 +216,8 @@ class PacketSource final : public MessageSource {
     return {};
   }
 
-  Result<void> decode(Stream& stream, const BagMessage& message) {
+  Result<void> see(const BagMessage& message) override {
+    Stream& stream = streams_.at(message.connection->id);
     const auto view = stream.message.decode(message.data);
     if (!view) return {};  // counted where it is read
     if (stream.frame.empty()) stream.frame = view->text("header.frame_id").value_or("");
@@ -330,27 +239,17 @@ class PacketSource final : public MessageSource {
   }
 
   /// The scans that the recording ends in.
-  void finish() {
-    ended_ = true;
+  void finish(Time last) override {
+    if (std::exchange(finished_, true)) return;
     for (auto& [id, stream] : streams_) {
-      if (stream.packets && stream.kind == kScan) {
-        keep(stream, stream.packets->finish(), last_time_);
-      }
+      if (stream.packets && stream.kind == kScan) keep(stream, stream.packets->finish(), last);
     }
   }
 
-  std::unique_ptr<MessageSource> source_;
   std::optional<OusterMetadata> ouster_;
-  std::vector<BagConnection> connections_;
-  std::set<std::uint32_t> recorded_;         ///< connections of the recording itself
-  std::set<std::uint32_t> wanted_;           ///< connections that are given
   std::map<std::uint32_t, Stream> streams_;  ///< by connection
-  std::map<std::uint32_t, Stream> information_;
   std::uint32_t frames_ = 0;
-  std::deque<Made> made_;
-  std::optional<Made> lent_;  ///< that the caller has
-  Time last_time_ = 0;
-  bool ended_ = false;
+  bool finished_ = false;
 };
 
 }  // namespace
