@@ -89,7 +89,8 @@ Pose RecordedFrames::extrinsic(const ExtrinsicConfig& configured, const std::str
                          "recording.{}.translation and rotation_rpy_deg, or .file to a "
                          "calibration, or name the frames",
                          named(from), named(to), key),
-             key == "T_imu_lidar" ? WarnedSensor::kLidar : WarnedSensor::kLegs);
+             key == "T_imu_lidar" ? WarnedSensor::kLidar : WarnedSensor::kLegs,
+             WarningKind::kNoTransform);
   return {};
 }
 

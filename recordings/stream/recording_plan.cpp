@@ -282,7 +282,8 @@ void warn_of_recorders(const BagSummary& summary, std::vector<ReadingWarning>& w
        fmt::format("the stamps of the files agree, but record times of one are {:.3f} s {} by "
                    "another recorder's clock: its messages are merged by their stamps",
                    std::abs(to_seconds(summary.clock_shift)),
-                   summary.clock_shift < 0 ? "ahead" : "behind")});
+                   summary.clock_shift < 0 ? "ahead" : "behind"),
+       WarnedSensor::kAny, WarningKind::kClocks});
 }
 
 }  // namespace

@@ -49,7 +49,8 @@ ReadingWarning warning_of_rates(const std::string& topic, const std::string& oth
       fmt::format("clocks of {} and {} run at different rates", topic, other),
       fmt::format("{}: by the record times its stamps run {:.3g} % {} than those of {}: no delay "
                   "corrects it; synchronise the clocks, or have the drivers stamp by one",
-                  topic, 1e2 * std::abs(growth), growth < 0.0 ? "faster" : "slower", other)};
+                  topic, 1e2 * std::abs(growth), growth < 0.0 ? "faster" : "slower", other),
+      WarnedSensor::kAny, WarningKind::kClocks};
 }
 
 ReadingWarning warning_of_record_rate(double rate) {

@@ -99,7 +99,8 @@ bool RecordingSurvey::warn_of_imu_clock(const std::map<Role, Duration>& behind,
       fmt::format("{}: stamps are {:.3f} s {} those of {}, which agree: set "
                   "recording.imu_delay={:.3f} if its clock differs",
                   reference, std::abs(to_seconds(middle)), middle > 0 ? "ahead of" : "behind",
-                  fmt::join(others, ", "), delay_of(config_, Role::kImu) + to_seconds(middle)));
+                  fmt::join(others, ", "), delay_of(config_, Role::kImu) + to_seconds(middle)),
+      WarnedSensor::kAny, WarningKind::kClocks);
   return true;
 }
 
@@ -116,7 +117,8 @@ void RecordingSurvey::warn_of_clocks(const RecordingPlan& plan, const std::strin
                             "recording.{}_delay={:.3f} if their clocks differ",
                             topic, std::abs(to_seconds(behind)), behind > 0 ? "behind" : "ahead of",
                             role == Role::kLidar ? "lidar" : "leg",
-                            delay_of(config_, role) - to_seconds(behind)));
+                            delay_of(config_, role) - to_seconds(behind)),
+                WarnedSensor::kAny, WarningKind::kClocks);
   }
 }
 
