@@ -19,12 +19,12 @@
 #include "bench/estimate/way_check.hpp"
 #include "bench/scoring/score_hints.hpp"
 #include "bench/scoring/score_record.hpp"
+#include "core/files/pose_cleaning.hpp"
 #include "core/files/tum.hpp"
 #include "core/files/yaml_config.hpp"
 #include "core/stopwatch.hpp"
 #include "estimator/estimator_spec.hpp"
 #include "recordings/frames/configured_extrinsic.hpp"
-#include "recordings/trajectories/pose_cleaning.hpp"
 
 namespace aims {
 namespace {
@@ -280,7 +280,7 @@ Result<StreamEnd> stream_into_log(const EstimateConfig& config, RecordingReader&
   if (evidence) evidence->finish();
   // Of clocks that differ each verdict on axes would be one on them.
   const bool clocks = std::ranges::any_of(result.setup.warnings, [](const ReadingWarning& each) {
-    return each.reason.starts_with("clocks of ");
+    return each.kind == WarningKind::kClocks;
   });
   const auto mount =
       evidence && !clocks ? warning_of(*evidence, result.setup.rig.T_body_lidar) : std::nullopt;
