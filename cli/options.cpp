@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <thread>
 
-#include "bench/run/calibration_fit.hpp"
+#include "bench/run/estimator_fit.hpp"
 #include "bench/scenario/seeds.hpp"
 #include "cli/terminal.hpp"
 #include "estimator/estimator_spec.hpp"

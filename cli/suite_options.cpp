@@ -9,8 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "bench/run/calibration_fit.hpp"
-#include "bench/run/simulated_rings.hpp"
+#include "bench/run/estimator_fit.hpp"
 #include "bench/scenario/scenario_draws.hpp"
 #include "cli/progress.hpp"
 #include "cli/terminal.hpp"

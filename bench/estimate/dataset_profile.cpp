@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "bench/estimate/python_classes.hpp"
-#include "bench/estimate/scoring_input.hpp"
+#include "bench/estimate/scoring_points.hpp"
 #include "bench/scoring/score_record.hpp"
 #include "core/files/yaml_config.hpp"
 #include "core/text.hpp"

@@ -19,12 +19,12 @@
 #include "bench/estimate/way_check.hpp"
 #include "bench/scoring/score_hints.hpp"
 #include "bench/scoring/score_record.hpp"
+#include "core/files/pose_cleaning.hpp"
 #include "core/files/tum.hpp"
 #include "core/files/yaml_config.hpp"
 #include "core/stopwatch.hpp"
 #include "estimator/estimator_spec.hpp"
 #include "recordings/frames/configured_extrinsic.hpp"
-#include "recordings/trajectories/pose_cleaning.hpp"
 
 namespace aims {
 namespace {

@@ -45,9 +45,6 @@ struct ScoringRequest {
 /// it has no attitude, or one that never changes while an estimate turns; notes it.
 void resolve_truth_content(ScoringInput& input);
 
-/// Error for an extrinsic, a lever arm, its frame or a pose of the end that is not written as one.
-Result<void> check_points(const ScoringRequest& request);
-
 /// Reads all that is needed to score. Errors are one line that names the file or the option.
 Result<ScoringInput> read_scoring_input(const ScoringRequest& request);
 

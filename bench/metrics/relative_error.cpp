@@ -23,7 +23,8 @@ IndexPairs consecutive_pairs(std::span<const Eigen::Vector3d> positions, double 
   return pairs;
 }
 
-IndexPairs all_pairs(std::span<const Eigen::Vector3d> positions, double delta, double tolerance) {
+IndexPairs all_pairs(std::span<const Eigen::Vector3d> positions, double delta) {
+  constexpr double kTolerance = 0.1;  // of delta
   std::vector<double> path(positions.size(), 0.0);
   for (std::size_t i = 1; i < positions.size(); ++i) {
     path[i] = path[i - 1] + (positions[i] - positions[i - 1]).norm();
@@ -36,29 +37,18 @@ IndexPairs all_pairs(std::span<const Eigen::Vector3d> positions, double delta, d
     if (best == path.end() || (best != first && off(std::prev(best)) <= off(best))) --best;
     // The first of equals, as a search for the smallest from the left finds it.
     best = std::lower_bound(first, path.end(), *best);
-    if (off(best) > tolerance) continue;
+    if (off(best) > delta * kTolerance) continue;
     pairs.emplace_back(i, static_cast<std::size_t>(best - path.begin()));
   }
   return pairs;
 }
 
-/// Running sum of squares and maximum.
-struct Spread {
-  double squares = 0.0;
-  double max = 0.0;
-
-  void add(double value) {
-    squares += value * value;
-    max = std::max(max, value);
-  }
-};
-
 }  // namespace
 
 IndexPairs pairs_over_path(std::span<const Eigen::Vector3d> positions, const RpeOptions& options) {
   if (positions.size() < 2 || !(options.delta > 0.0)) return {};
-  if (!options.all_pairs) return consecutive_pairs(positions, options.delta);
-  return all_pairs(positions, options.delta, options.delta * options.relative_tolerance);
+  return options.all_pairs ? all_pairs(positions, options.delta)
+                           : consecutive_pairs(positions, options.delta);
 }
 
 RpeScore relative_pose_error(std::span<const PosePair> pairs, const RpeOptions& options) {
@@ -72,20 +62,18 @@ RpeScore relative_pose_error(std::span<const PosePair> pairs, const RpeOptions& 
   score.delta = options.delta;
   score.pairs = static_cast<int>(index_pairs.size());
   if (index_pairs.empty()) return score;
-  Spread translation;
-  Spread rotation;
+  double translation = 0.0, rotation = 0.0;  // sums of squares
   for (const auto& [i, j] : index_pairs) {
     const Pose true_motion = pairs[i].truth.inverse() * pairs[j].truth;
     const Pose estimated_motion = pairs[i].estimate.inverse() * pairs[j].estimate;
     const Pose error = true_motion.inverse() * estimated_motion;
-    translation.add(error.translation.norm());
-    rotation.add(so3_log(error.rotation).norm());
+    const double moved = error.translation.norm(), turned = so3_log(error.rotation).norm();
+    translation += moved * moved;
+    rotation += turned * turned;
   }
   const auto count = static_cast<double>(index_pairs.size());
-  score.translation_rmse_m = std::sqrt(translation.squares / count);
-  score.translation_max_m = translation.max;
-  score.rotation_rmse_rad = std::sqrt(rotation.squares / count);
-  score.rotation_max_rad = rotation.max;
+  score.translation_rmse_m = std::sqrt(translation / count);
+  score.rotation_rmse_rad = std::sqrt(rotation / count);
   return score;
 }
 

@@ -13,10 +13,9 @@ namespace aims {
 
 /// Which pairs of poses the relative error compares.
 struct RpeOptions {
-  double delta = 1.0;               ///< path length between the two poses [m]
-  bool all_pairs = false;           ///< from every pose, not only from the end of the last pair
-  bool pairs_from_truth = true;     ///< path measured along the truth (evo's default: the estimate)
-  double relative_tolerance = 0.1;  ///< of delta, for `all_pairs` only
+  double delta = 1.0;            ///< path length between the two poses [m]
+  bool all_pairs = false;        ///< from every pose, not only from the end of the last pair
+  bool pairs_from_truth = true;  ///< path measured along the truth (evo's default: the estimate)
 };
 
 /// Relative pose error over one path length (evo: RPE with delta in metres).
@@ -24,14 +23,12 @@ struct RpeScore {
   double delta = 0.0;                        ///< [m]
   int pairs = 0;                             ///< compared; 0: the path is too short
   std::optional<double> translation_rmse_m;  ///< of |trans(E)|
-  std::optional<double> translation_max_m;
-  std::optional<double> rotation_rmse_rad;  ///< of the rotation angle of E
-  std::optional<double> rotation_max_rad;
+  std::optional<double> rotation_rmse_rad;   ///< of the rotation angle of E
 };
 
 /// Indices (from, to) of poses about `delta` of path apart, by the rules of evo: consecutive pairs
 /// end at the first pose at or beyond delta, and the pair from the very first pose is left out;
-/// with all pairs each pose takes the later one nearest to delta, if within the tolerance.
+/// with all pairs each pose takes the later one nearest to delta, if within a tenth of it.
 std::vector<std::pair<std::size_t, std::size_t>> pairs_over_path(
     std::span<const Eigen::Vector3d> positions, const RpeOptions& options);
 

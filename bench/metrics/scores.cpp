@@ -290,7 +290,6 @@ Scores score_over(const Trajectory& estimate, const Trajectory& truth,
   scores.poses_invalid = static_cast<int>(estimate.size() - valid.size());
   scores.poses_compared = static_cast<int>(pairs.size());
   scores.coverage = coverage_of(pairs, valid_truth, limits);
-  scores.true_path_m = path_length(valid_truth);
   scores.segments = segment_distances(valid, valid_truth, segments, config.min_segment_length,
                                       {.edge = edge, .gap = from_seconds(config.max_gap)});
   scores.m_list_percent = m_list_percent(scores.segments);

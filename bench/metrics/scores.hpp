@@ -73,11 +73,10 @@ struct Scores {
   std::optional<Time> diverged_at;  ///< none on success, or when the reason is not the estimate's
   bool partial = false;             ///< poses are missing or invalid, whatever failed first
 
-  int poses = 0;             ///< given by the estimator
-  int poses_invalid = 0;     ///< not finite, not a rigid transform, or out of order
-  int poses_compared = 0;    ///< associated with a true pose
-  double coverage = 0.0;     ///< fraction of the truth's time with estimates
-  double true_path_m = 0.0;  ///< length of the true path
+  int poses = 0;           ///< given by the estimator
+  int poses_invalid = 0;   ///< not finite, not a rigid transform, or out of order
+  int poses_compared = 0;  ///< associated with a true pose
+  double coverage = 0.0;   ///< fraction of the truth's time with estimates
 
   std::vector<SegmentDistance> segments;  ///< M_list of each, in order
   std::optional<double> m_list_percent;   ///< over all segments

@@ -86,11 +86,6 @@ std::optional<double> kendall_tau(std::span<const double> x, std::span<const dou
   return sum / std::sqrt(untied_x * untied_y);
 }
 
-double chi_square_probability(double value, double dof) {
-  assert(dof > 0.0);
-  return value > 0.0 ? boost::math::cdf(boost::math::chi_squared(dof), value) : 0.0;
-}
-
 double chi_square_quantile(double probability, double dof) {
   assert(probability > 0.0 && probability < 1.0);
   return boost::math::quantile(boost::math::chi_squared(dof), probability);

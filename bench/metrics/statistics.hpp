@@ -78,9 +78,6 @@ double mcnemar_false_alarm(std::size_t discordant);
 /// tied, below two pairs, or when a value is NaN. Both have the same length.
 std::optional<double> kendall_tau(std::span<const double> x, std::span<const double> y);
 
-/// Probability that a chi-square variable of `dof` > 0 degrees of freedom is at most `value`.
-double chi_square_probability(double value, double dof);
-
 /// The value that a chi-square variable of `dof` > 0 degrees of freedom stays below with
 /// `probability` in (0, 1).
 double chi_square_quantile(double probability, double dof);

@@ -2,7 +2,7 @@
 #include "bench/run/evaluate.hpp"
 
 #include "bench/estimate/stream.hpp"
-#include "bench/run/calibration_fit.hpp"
+#include "bench/run/estimator_fit.hpp"
 #include "bench/scoring/health_time.hpp"
 #include "bench/scoring/validity.hpp"
 

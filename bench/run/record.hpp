@@ -7,8 +7,8 @@
 #include "bench/estimate/progress.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "core/error.hpp"
+#include "core/walk_outcome.hpp"
 #include "recordings/bag/compression.hpp"
-#include "sim/robot/walk_outcome.hpp"
 
 namespace aims {
 

@@ -25,10 +25,6 @@ bool offers(const std::vector<double>& modes, double value) {
 
 void describe(Fields& f, LidarSheet& s) {
   f.text("description", s.description, {.meaning = "maker and model"});
-  f.number("wavelength_nm", s.wavelength_nm,
-           {.unit = "nm", .range = up_to(1e4), .meaning = "of the laser"});
-  f.integer("returns", s.returns,
-            {.unit = "-", .range = in_range(1, 10), .meaning = "that the sensor can report"});
   f.numbers("rates", s.rates,
             {.unit = "Hz", .range = up_to(1e3), .meaning = "scans per second to choose from"});
   f.numbers("columns", s.columns,

@@ -48,8 +48,6 @@ Result<Sheet> apply_model_file(std::string_view text, const std::string& name, S
 /// What a file of models/lidars states of the sensor, apart from the keys of the group `lidar`.
 struct LidarSheet {
   std::string description;      ///< one line
-  double wavelength_nm = 0.0;   ///< [nm]; 0: not stated
-  int returns = 1;              ///< of one firing, that the sensor can report; one is simulated
   std::vector<double> rates;    ///< scans per second that it can be set to [Hz]; empty: any
   std::vector<double> columns;  ///< per scan, that it can be set to; empty: any
   std::string imu;              ///< part of the built-in IMU; empty: none

@@ -8,7 +8,7 @@
 #include "bench/metrics/posterior_bound.hpp"
 #include "bench/scenario/scenario_draws.hpp"
 #include "bench/scoring/score_record.hpp"
-#include "sim/robot/walk_outcome.hpp"
+#include "core/walk_outcome.hpp"
 
 namespace aims {
 

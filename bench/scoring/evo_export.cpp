@@ -12,7 +12,7 @@
 #include "bench/scoring/json_text.hpp"
 #include "core/file_name.hpp"
 #include "core/files/atomic_file.hpp"
-#include "recordings/mcap/crc32.hpp"
+#include "core/files/crc32.hpp"
 
 namespace aims {
 namespace {

@@ -118,6 +118,8 @@ constexpr std::array kScores = {
           [](const Scores& s) { return json_of(s.m_end, &EndError::z_m); }},
     Score{"start_to_end_m", "", "m", 3, kOpen, 0,
           [](const Scores& s) { return json_of(s.start_to_end_m); }},
+    Score{"control_points.points", "", "-", 0, kLarge},
+    Score{"control_points.reached", "", "-", 0, kLarge},
     Score{"control_points", "control points", "%", 1, kLarge, 0, control_points_json,
           has_control_points},
     Score{"ate_yaw_m", "ATE yaw", "m", 3, kSmall, 0.01,
@@ -144,30 +146,52 @@ constexpr std::array kScores = {
           [](const Scores& s) { return path_errors_json(s, &PathError::translation_percent); }},
     Score{"path_error_deg_per_m", "path error", "deg/m", 3, kSmall, 0,
           [](const Scores& s) { return path_errors_json(s, &PathError::rotation_deg_per_m); }},
-    Score{"rpe_1m", "", "", 3, kSmall, 0, rpe_json<1>, has_rpe<1>},
-    Score{"rpe_10m", "", "", 3, kSmall, 0, rpe_json<10>, has_rpe<10>},
-    Score{"drift_m.end", "", "m", 3, kOpen},  // with a sign, of which neither end is better
+    Score{"rpe_1m.rotation_rad", "", "rad"},
+    Score{"rpe_1m", "RPE 1 m", "m", 3, kSmall, 0, rpe_json<1>, has_rpe<1>},
+    Score{"rpe_10m.rotation_rad", "", "rad"},
+    Score{"rpe_10m", "RPE 10 m", "m", 3, kSmall, 0, rpe_json<10>, has_rpe<10>},
+    // At the end with a sign, of which neither end is better.
+    Score{"drift_m.end.heading_rad", "", "rad", 3, kOpen},
+    Score{"drift_m.end.tilt_rad", "", "rad", 3, kOpen},
+    Score{"drift_m.end", "", "m", 3, kOpen},
+    Score{"drift_m.*.heading_rad", "", "rad"},
+    Score{"drift_m.*.tilt_rad", "", "rad"},
     Score{"drift_m", "", "m", 3, kSmall, 0, drift_json},
+    Score{"weak_axis.*.efficiency", "", "-", 2, kLarge},
+    Score{"weak_axis.*.error_rms_m", "", "m", 2, kOpen},
+    Score{"weak_axis.*.bound_rms_m", "", "m", 2, kOpen},
     Score{"weak_axis", "NEES weak axis", "-", 2, kOpen},
     Score{"time_per_scan_ms", "wall", "ms", 2},
     Score{"cpu_per_scan_ms", "CPU", "ms", 2},
     Score{"poses", "", "-", 0, kLarge},
+    Score{"poses_invalid", "", "-", 0},
     Score{"counts", "", "-", 0, kOpen},  // what the data and the machine decide
     Score{"health.healthy_s", "", "s", 1, kLarge},
+    Score{"health", "", "s", 1},
 };
 // clang-format on
 
-/// The entry of that key or of one above it; the end where there is none.
-const Score* listed(std::string_view key) {
-  return std::ranges::find_if(kScores, [&](const Score& each) {
-    const std::string_view above = each.key;
-    return key == above || (key.starts_with(above) && key[above.size()] == '.');
-  });
+/// The first part of a dotted key, which is taken off.
+std::string_view take_part(std::string_view& key) {
+  const std::string_view part = key.substr(0, key.find('.'));
+  key.remove_prefix(std::min(part.size() + 1, key.size()));
+  return part;
 }
 
-/// Of a level of the weak axis, which has a key of its own.
-bool is_efficiency(std::string_view key) {
-  return key.starts_with("weak_axis.") && key.ends_with(".efficiency");
+/// Whether `key` is the number of that entry or below it.
+bool is_at(std::string_view entry, std::string_view key) {
+  while (!entry.empty()) {
+    const std::string_view part = take_part(entry);
+    if (const auto own = take_part(key); part != own && part != "*") return false;
+  }
+  return true;
+}
+
+/// The entry of that key or of the closest one above it; the end where there is none.
+const Score* listed(std::string_view key) {
+  constexpr std::string_view kOptimized = kOptimizedPrefix;
+  if (key.starts_with(kOptimized)) key.remove_prefix(kOptimized.size());
+  return std::ranges::find_if(kScores, [&](const Score& each) { return is_at(each.key, key); });
 }
 
 /// The entry for a number of that key.
@@ -184,9 +208,13 @@ std::span<const Score> score_list() { return kScores; }
 const Score& score_at(std::string_view key) { return *listed(key); }
 
 Better better_of(std::string_view key) {
-  if (is_efficiency(key)) return Better::kLarger;
   const auto* const score = listed(key);
   return score == kScores.end() ? Better::kSmaller : score->better;
+}
+
+std::string_view unit_of(std::string_view key) {
+  const auto* const score = listed(key);
+  return score == kScores.end() || score->unit == "-" ? "" : score->unit;
 }
 
 std::string title_with_unit(const Score& score) {

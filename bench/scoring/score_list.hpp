@@ -15,10 +15,16 @@ namespace aims {
 
 enum class Better { kSmaller, kLarger, kNeither };
 
+/// "smaller", "larger", "neither".
+constexpr std::string_view name_of(Better better) {
+  constexpr std::string_view kNames[] = {"smaller", "larger", "neither"};
+  return kNames[static_cast<int>(better)];
+}
+
 /// One score of an estimate: the only place that knows its key, how it is shown and its value.
 struct Score {
   /// Of scores.json, scores.csv, `expect:` and objectives. A score of several numbers is an object
-  /// there, whose numbers have keys below this one: "m_list_percent.a-b".
+  /// there, whose numbers have keys below this one: "m_list_percent.a-b". "*" is any part.
   const char* key;
   std::string_view title;  ///< of columns; empty: never one
   std::string_view unit;
@@ -34,11 +40,17 @@ struct Score {
 /// All scores, in the order of scores.json.
 std::span<const Score> score_list();
 
-/// The score of that key, or of the longest one above it; `key` is dotted and one of the list.
+/// Of the keys of a re-optimized trajectory's scores.
+inline constexpr const char* kOptimizedPrefix = "optimized.";
+
+/// The score of that key, or of the closest one above it; `key` is dotted and one of the list.
 const Score& score_at(std::string_view key);
 
 /// Which is better of the score of that key; of one that the list lacks, less.
 Better better_of(std::string_view key);
+
+/// The unit of the score of that key; empty for one without, and for one that the list lacks.
+std::string_view unit_of(std::string_view key);
 
 /// "ATE yaw [m]".
 std::string title_with_unit(const Score& score);

@@ -79,9 +79,6 @@ std::optional<double> find_run_score(const RunRecord& record, const std::string&
 /// Dotted keys of those numbers.
 std::vector<std::string> run_score_keys(const RunRecord& record);
 
-/// Of the keys of a re-optimized trajectory's scores.
-inline constexpr const char* kOptimizedPrefix = "optimized.";
-
 /// Name of that trajectory's row in a table.
 std::string optimized_label(const std::string& estimator);
 

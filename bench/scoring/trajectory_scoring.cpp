@@ -9,7 +9,7 @@
 #include "bench/scoring/motion_offset.hpp"
 #include "bench/scoring/score_hints.hpp"
 #include "bench/scoring/start_anchor.hpp"
-#include "recordings/trajectories/pose_cleaning.hpp"
+#include "core/files/pose_cleaning.hpp"
 
 namespace aims {
 namespace {
@@ -173,16 +173,6 @@ ScoredEstimate score_one(SourcedTrajectory estimate, const ScoringInput& input) 
   return scored;
 }
 
-/// What the reader of a trajectory noted of the poses that it left out.
-std::string dropped_from(const std::string& source, const std::vector<std::string>& notes) {
-  const auto of_source = [&](const std::string& note) {
-    return note.starts_with(source + ":") && note.find(" dropped: ") != std::string::npos;
-  };
-  const auto found = std::ranges::find_if(notes, of_source);
-  // The source may have its topic behind it.
-  return found == notes.end() ? "" : "; " + found->substr(found->find(": ", source.size()) + 2);
-}
-
 }  // namespace
 
 bool covers_too_little(const ScoredEstimate& estimate, const ScoreConfig& scoring) {
@@ -209,7 +199,7 @@ Result<TrajectoryScores> score_trajectories(ScoringInput input) {
   if (input.truth.trajectory.size() < 2) {
     return failure(fmt::format("{}: expected at least two true poses, found {}{}",
                                input.truth.source, input.truth.trajectory.size(),
-                               dropped_from(input.truth.source, result.notes)));
+                               input.truth.dropped.empty() ? "" : "; " + input.truth.dropped));
   }
   move_near(input.truth, result.notes);
   note_truth(input, result.notes);

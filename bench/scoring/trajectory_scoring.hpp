@@ -21,6 +21,7 @@ struct SourcedTrajectory {
   std::string body_frame = {};  ///< whose poses they are, where the file states it; e.g. "lidar"
   bool has_attitude = true;     ///< false: positions alone
   Pose T_body_estimate = {};    ///< taken off its poses (--extrinsic)
+  std::string dropped = {};     ///< which poses its reader left out: "2 of 5 poses dropped: ..."
 };
 
 /// Trajectories of any system, the truth, and over which ways M_list is taken.

@@ -50,19 +50,19 @@ std::string mount_note(const ExtrinsicConfig& stated, const Pose& pose, std::str
 }
 
 std::vector<std::string> mount_notes(const RecordingConfig& config, const RecordingSetup& setup) {
-  const auto assumed = [&setup](std::string_view key) {
-    return std::ranges::any_of(setup.warnings, [key](const ReadingWarning& each) {
-      return each.kind == WarningKind::kMountAssumed && each.reason.starts_with(key);
+  const auto assumed = [&setup](WarnedSensor sensor) {
+    return std::ranges::any_of(setup.warnings, [sensor](const ReadingWarning& each) {
+      return each.kind == WarningKind::kMountAssumed && each.sensor == sensor;
     });
   };
   std::vector<std::string> notes;
   if (!setup.topics.lidar.empty() && setup.topics.lidar != "none") {
-    notes.push_back(
-        mount_note(config.T_imu_lidar, setup.rig.T_body_lidar, "LiDAR", assumed("T_imu_lidar")));
+    notes.push_back(mount_note(config.T_imu_lidar, setup.rig.T_body_lidar, "LiDAR",
+                               assumed(WarnedSensor::kLidar)));
   }
   if (setup.has_legs) {
     notes.push_back(
-        mount_note(config.T_imu_base, setup.rig.T_body_base, "base", assumed("T_imu_base")));
+        mount_note(config.T_imu_base, setup.rig.T_body_base, "base", assumed(WarnedSensor::kLegs)));
   }
   return notes;
 }

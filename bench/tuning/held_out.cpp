@@ -175,7 +175,7 @@ PairedGain paired_gain(const ResponseTable& table, const Objective& planned, std
   result.defaults_diverged = defaults_all_diverged(table);
   result.score = title_of(objective.score);
   result.key = objective.score;
-  result.unit = unit_of_score(objective.score);
+  result.unit = unit_of(objective.score);
   measure(table, point, cases, result);
   if (result.defaults_diverged) return result;
   const auto gain = [&](std::span<const std::size_t> some) {

@@ -4,11 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>
-#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -139,36 +137,12 @@ std::string text_of(const Objective& objective) {
 
 std::string value_label(const Objective& objective) {
   if (objective.relative) return objective.score + " over the defaults'";
-  const std::string unit = unit_of_score(objective.score);
-  return objective.score + (unit.empty() ? "" : " [" + unit + "]");
+  const std::string_view unit = unit_of(objective.score);
+  return unit.empty() ? objective.score : fmt::format("{} [{}]", objective.score, unit);
 }
 
 std::string axis_label(const Objective& objective) {
   return "objective: " + value_label(objective);
-}
-
-std::string unit_of_score(const std::string& score) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kSuffixes = {{
-      {"_percent", "%"},
-      {"_deg_per_m", "deg/m"},
-      {"_m_per_s", "m/s"},
-      {"_ms", "ms"},
-      {"_m", "m"},
-      {"_s", "s"},
-      {"_mrad", "mrad"},
-      {"_rad", "rad"},
-      {"_deg", "deg"},
-      {"_hz", "Hz"},
-  }};
-  if (score.starts_with("success")) return "";  // "_1_percent" is its limit
-  std::istringstream parts(score);
-  std::string last;
-  for (std::string part; std::getline(parts, part, '.');) {
-    const auto* const found = std::ranges::find_if(
-        kSuffixes, [&](const auto& each) { return part.ends_with(each.first); });
-    if (found != kSuffixes.end()) last = found->second;
-  }
-  return last;
 }
 
 RunScore run_score(const JobResult& job, const std::string& score) {

@@ -46,10 +46,6 @@ std::string value_label(const Objective& objective);
 /// "objective: ate_m [m]", for axes.
 std::string axis_label(const Objective& objective);
 
-/// The unit in a score's name, the last one: "m" of "ate_m", "%" of "m_list_percent.all", "rad" of
-/// "drift_m.rmse.heading_rad"; empty: none.
-std::string unit_of_score(const std::string& score);
-
 /// One score of one run.
 struct RunScore {
   std::optional<double> value;  ///< none: the run has no such score

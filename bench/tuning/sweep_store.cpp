@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/tuning/sweep_store.hpp"
 
-#include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
-#include <optional>
+#include <cstdint>
+#include <string_view>
 #include <system_error>
 
 #include "bench/scoring/json_text.hpp"
+#include "core/files/sqlite_database.hpp"
 
 namespace aims {
 namespace {
@@ -27,24 +29,17 @@ CREATE TABLE scores (job INTEGER NOT NULL REFERENCES jobs, key TEXT NOT NULL, va
   PRIMARY KEY (job, key)) WITHOUT ROWID;
 )";
 
-void bind_text(SQLite::Statement& statement, int at, const Json& file, const char* key) {
-  const auto found = file.is_object() ? file.find(key) : file.end();
-  if (found != file.end() && found->is_string()) {
-    statement.bind(at, found->get<std::string>());
-  } else {
-    statement.bind(at);
-  }
-}
-
-void bind_number(SQLite::Statement& statement, int at, const Json& value) {
+/// A number, a truth value as 0 or 1, or a text, which must stay until the statement has run; else
+/// null.
+void bind(SqliteStatement& statement, int at, const Json& value) {
   if (value.is_number()) {
-    statement.bind(at, value.get<double>());
+    statement.bind_number(at, value.get<double>());
   } else if (value.is_boolean()) {
-    statement.bind(at, value.get<bool>() ? 1 : 0);
+    statement.bind(at, std::int64_t{value.get<bool>()});
   } else if (value.is_string()) {
-    statement.bind(at, value.get<std::string>());
+    statement.bind(at, value.get_ref<const std::string&>());
   } else {
-    statement.bind(at);
+    statement.bind_null(at);
   }
 }
 
@@ -59,82 +54,82 @@ Json setting_value(const std::string& text) {
 /// Fills the tables of an empty database.
 class Filler {
  public:
-  explicit Filler(SQLite::Database& database)
-      : job_(database, "INSERT INTO jobs VALUES (?,?,?,?,?,?,?,?,?,?,?,?)"),
-        parameter_(database, "INSERT INTO parameters VALUES (?,?,?)"),
-        score_(database, "INSERT INTO scores VALUES (?,?,?)"),
-        about_(database, "INSERT INTO about VALUES (?,?)") {}
+  explicit Filler(const SqliteDatabase& database)
+      : job_(database.prepare("INSERT INTO jobs VALUES (?,?,?,?,?,?,?,?,?,?,?,?)")),
+        parameter_(database.prepare("INSERT INTO parameters VALUES (?,?,?)")),
+        score_(database.prepare("INSERT INTO scores VALUES (?,?,?)")),
+        about_(database.prepare("INSERT INTO about VALUES (?,?)")) {
+    for (const auto* each : {&job_, &parameter_, &score_, &about_}) {
+      if (done_ && !*each) done_ = tl::unexpected(each->error());
+    }
+  }
 
-  void about(const std::string& key, const std::string& value) {
-    about_.bind(1, key);
-    about_.bind(2, value);
-    finish(about_);
+  void about(std::string_view key, std::string_view value) {
+    if (done_) done_ = about_->bind(1, key).bind(2, value).finish();
   }
 
   void add(const MergedJob& job) {
+    if (!done_) return;
     ++number_;
     const ListedJob& listed = job.listed;
     const Json& file = job.file;
-    job_.bind(1, number_);
-    job_.bind(2, listed.id);
-    job_.bind(3, listed.scenario);
-    bind_text(job_, 4, file, "family");
-    bind_number(job_, 5, value_in(file, "level", Json()));
-    job_.bind(6, static_cast<std::int64_t>(seed_of(listed)));
-    const std::size_t plus = listed.estimator.find('+');
-    job_.bind(7, listed.estimator.substr(0, plus));
-    job_.bind(8, plus == std::string::npos ? "" : listed.estimator.substr(plus + 1));
-    job_.bind(9, job.outcome());
-    bind_text(job_, 10, file, "message");
+    const std::string_view estimator = listed.estimator;
+    const std::size_t plus = std::min(estimator.find('+'), estimator.size());
+    const std::string outcome = job.outcome();
     const auto invalid = job.invalid();
-    if (invalid) job_.bind(10, *invalid);
-    bind_text(job_, 11, file, "code");
-    bind_number(job_, 12, value_in(file, "wall_s", Json()));
-    finish(job_);
+    job_->bind(1, number_).bind(2, listed.id).bind(3, listed.scenario);
+    bind(*job_, 4, member(file, "family"));
+    bind(*job_, 5, member(file, "level"));
+    job_->bind(6, static_cast<std::int64_t>(seed_of(listed)));
+    job_->bind(7, estimator.substr(0, plus));
+    job_->bind(8, estimator.substr(std::min(plus + 1, estimator.size())));
+    job_->bind(9, outcome);
+    bind(*job_, 10, member(file, "message"));
+    if (invalid) job_->bind(10, *invalid);
+    bind(*job_, 11, member(file, "code"));
+    bind(*job_, 12, member(file, "wall_s"));
+    done_ = job_->finish();
     if (!file.is_object()) return;
     const Json settings = value_in(file, "settings", Json::object());
     for (const auto& [key, value] : settings.items()) {
-      if (value.is_string()) add_value(parameter_, key, setting_value(value.get<std::string>()));
+      if (value.is_string()) add_value(*parameter_, key, setting_value(value.get<std::string>()));
     }
-    if (job.invalid()) return;
-    const Json scores = value_in(file, "scores", Json());
-    visit_leaves(scores, "", [this](const std::string& key, const Json& value) {
-      add_value(score_, key, value);
+    if (invalid) return;
+    visit_leaves(member(file, "scores"), "", [this](const std::string& key, const Json& value) {
+      add_value(*score_, key, value);
     });
   }
 
- private:
-  void add_value(SQLite::Statement& statement, const std::string& key, const Json& value) {
-    statement.bind(1, number_);
-    statement.bind(2, key);
-    bind_number(statement, 3, value);
-    finish(statement);
-  }
+  /// The first error.
+  const Result<void>& done() const { return done_; }
 
-  static void finish(SQLite::Statement& statement) {
-    statement.exec();
-    statement.reset();
+ private:
+  void add_value(SqliteStatement& statement, const std::string& key, const Json& value) {
+    if (!done_) return;
+    statement.bind(1, number_).bind(2, key);
+    bind(statement, 3, value);
+    done_ = statement.finish();
   }
 
   std::int64_t number_ = 0;
-  SQLite::Statement job_;
-  SQLite::Statement parameter_;
-  SQLite::Statement score_;
-  SQLite::Statement about_;
+  Result<void> done_;
+  Result<SqliteStatement> job_;
+  Result<SqliteStatement> parameter_;
+  Result<SqliteStatement> score_;
+  Result<SqliteStatement> about_;
 };
 
-void fill(const MergedSweep& sweep, const fs::path& file) {
-  // Nobody else knows the file yet: no locks, which some network disks lack, and no journal.
-  SQLite::Database database(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, 0,
-                            "unix-none");
-  database.exec("PRAGMA journal_mode=OFF; PRAGMA synchronous=OFF;");
-  database.exec(kTables);
-  SQLite::Transaction transaction(database);
-  Filler filler(database);
-  filler.about("schema", std::string(kSweepSchema));
+Result<void> fill(const MergedSweep& sweep, const fs::path& file) {
+  const auto database = SqliteDatabase::create(file, false);
+  if (!database) return tl::unexpected(database.error());
+  const std::string begin =
+      std::string("PRAGMA journal_mode=OFF; PRAGMA synchronous=OFF;") + kTables;
+  if (auto begun = database->run(begin + "BEGIN;"); !begun) return begun;
+  Filler filler(*database);
+  filler.about("schema", kSweepSchema);
   for (const std::string& plan : sweep.plans) filler.about("plan", plan);
   for (const MergedJob& job : sweep.jobs) filler.add(job);
-  transaction.commit();
+  return filler.done() ? database->run("COMMIT;") : filler.done();
 }
 
 }  // namespace
@@ -143,14 +138,14 @@ Result<void> write_sqlite(const MergedSweep& sweep, const fs::path& file) {
   const fs::path temporary = fmt::format("{}.{}.tmp", file.string(), ::getpid());
   std::error_code code;
   fs::remove(temporary, code);
-  try {
-    fill(sweep, temporary);
-    fs::rename(temporary, file);
-    return {};
-  } catch (const std::exception& error) {
-    fs::remove(temporary, code);
-    return failure(fmt::format("{}: cannot be written: {}", file.string(), error.what()));
+  auto written = fill(sweep, temporary);
+  if (written) {
+    fs::rename(temporary, file, code);
+    if (!code) return {};
+    written = failure(code.message());
   }
+  fs::remove(temporary, code);
+  return failure(fmt::format("{}: cannot be written: {}", file.string(), written.error().message));
 }
 
 }  // namespace aims

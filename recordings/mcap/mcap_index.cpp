@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "core/files/crc32.hpp"
 #include "core/text.hpp"
-#include "recordings/mcap/crc32.hpp"
 #include "recordings/mcap/mcap_scan.hpp"
 
 namespace aims {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/files/crc32.hpp"
 #include "recordings/bag/bag_output.hpp"
-#include "recordings/mcap/crc32.hpp"
 #include "recordings/mcap/mcap_record_builder.hpp"
 #include "recordings/messages/message_definition.hpp"
 #include "recordings/messages/quality_of_service.hpp"

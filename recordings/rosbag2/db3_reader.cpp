@@ -11,11 +11,11 @@
 #include <utility>
 
 #include "core/files/byte_cursor.hpp"
+#include "core/files/sqlite_database.hpp"
 #include "recordings/bag/bag_file.hpp"
 #include "recordings/messages/message_definition.hpp"
 #include "recordings/messages/message_types.hpp"
 #include "recordings/messages/quality_of_service.hpp"
-#include "recordings/rosbag2/sqlite_database.hpp"
 
 namespace aims {
 namespace {

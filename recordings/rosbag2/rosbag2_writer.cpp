@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "core/files/atomic_file.hpp"
+#include "core/files/sqlite_database.hpp"
 #include "recordings/messages/message_definition.hpp"
 #include "recordings/messages/quality_of_service.hpp"
 #include "recordings/rosbag2/rosbag2_metadata.hpp"
-#include "recordings/rosbag2/sqlite_database.hpp"
 
 namespace aims {
 namespace {

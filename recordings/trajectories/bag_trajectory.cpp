@@ -10,10 +10,10 @@
 #include <string_view>
 #include <utility>
 
+#include "core/files/pose_cleaning.hpp"
 #include "recordings/messages/message_values.hpp"
 #include "recordings/source/recording_file.hpp"
 #include "recordings/topics/connection_decoders.hpp"
-#include "recordings/trajectories/pose_cleaning.hpp"
 #include "recordings/trajectories/tf_trajectory.hpp"
 
 namespace aims {
@@ -236,7 +236,9 @@ Result<TrajectoryFile> read_bag_trajectory(const fs::path& file, const std::stri
     result.has_attitude = !is_of_positions(result.trajectory, name, result.notes);
   }
   normalize_rounded(result.trajectory, name, result.notes);
-  if (options.rules == PoseRules::kStrict) drop_unusable(result.trajectory, name, result.notes);
+  if (options.rules == PoseRules::kStrict) {
+    result.dropped = drop_unusable(result.trajectory, name, result.notes);
+  }
   return result;
 }
 

@@ -12,11 +12,11 @@
 #include <utility>
 #include <vector>
 
+#include "core/files/pose_cleaning.hpp"
 #include "recordings/frames/frame_tree.hpp"
 #include "recordings/messages/message_values.hpp"
 #include "recordings/source/recording_file.hpp"
 #include "recordings/topics/connection_decoders.hpp"
-#include "recordings/trajectories/pose_cleaning.hpp"
 
 namespace aims {
 namespace {
@@ -162,7 +162,9 @@ Result<TrajectoryFile> read_tf_trajectory(const fs::path& file, const std::strin
   result.kind = fmt::format("{} in {} of {}", wanted.second, wanted.first, result.topic);
   result.body_frame = wanted.second;
   if (result.trajectory.empty()) return failure(name + ": expected poses, found none");
-  if (options.rules == PoseRules::kStrict) drop_unusable(result.trajectory, name, result.notes);
+  if (options.rules == PoseRules::kStrict) {
+    result.dropped = drop_unusable(result.trajectory, name, result.notes);
+  }
   return result;
 }
 

@@ -11,10 +11,10 @@
 
 #include "core/files/kitti.hpp"
 #include "core/files/number_lines.hpp"
+#include "core/files/pose_cleaning.hpp"
 #include "core/files/text_file.hpp"
 #include "recordings/source/recording_file.hpp"
 #include "recordings/trajectories/bag_trajectory.hpp"
-#include "recordings/trajectories/pose_cleaning.hpp"
 #include "recordings/trajectories/pose_table.hpp"
 
 namespace aims {
@@ -205,7 +205,7 @@ Result<TrajectoryFile> read_text(const fs::path& file, const TrajectoryFileOptio
     result.kind = table ? "CSV" : "TUM";
     trajectory = parse_tum(*lines_text, name, PoseRules::kAsGiven);
   } else if (columns == kKittiColumns) {
-    result.kind = "KITTI poses";
+    result.kind = kKittiPoses;
     const auto poses = parse_kitti(*lines_text, name, PoseRules::kAsGiven);
     if (!poses) return tl::unexpected(poses.error());
     trajectory = stamped(*poses, name, options.stamps, result.notes);
@@ -221,7 +221,9 @@ Result<TrajectoryFile> read_text(const fs::path& file, const TrajectoryFileOptio
     result.has_attitude = !is_of_positions(result.trajectory, name, result.notes);
   }
   normalize_rounded(result.trajectory, name, result.notes);
-  if (options.rules == PoseRules::kStrict) drop_unusable(result.trajectory, name, result.notes);
+  if (options.rules == PoseRules::kStrict) {
+    result.dropped = drop_unusable(result.trajectory, name, result.notes);
+  }
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
@@ -29,6 +30,8 @@ struct TrajectoryFileOptions {
   int stamp_decimals = 0;
 };
 
+inline constexpr std::string_view kKittiPoses = "KITTI poses";
+
 /// A trajectory and its origin.
 struct TrajectoryFile {
   Trajectory trajectory;  ///< stamps increase and poses are valid only under strict rules
@@ -38,6 +41,7 @@ struct TrajectoryFile {
   std::string topic;               ///< of a bag
   std::string body_frame;          ///< child frame of a bag's poses, e.g. "lidar"; may be empty
   std::vector<std::string> notes;  ///< assumptions and dropped poses, one sentence each
+  std::string dropped;             ///< of the notes: "2 of 5 poses dropped: ..."
 };
 
 /// Reads `source`: a text file of TUM lines, KITTI poses or positions (stamp x y z), distinguished

@@ -131,10 +131,6 @@ PageData::Json PageData::f32(std::span<const double> values) {
   return f32(std::span<const float>(single));
 }
 
-PageData::Json PageData::u16(std::span<const std::uint16_t> values) {
-  return append("u16", values.data(), values.size_bytes(), values.size());
-}
-
 PageData::Json PageData::u8(std::span<const std::uint8_t> values) {
   return append("u8", values.data(), values.size_bytes(), values.size());
 }

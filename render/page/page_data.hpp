@@ -55,7 +55,6 @@ class PageData {
   /// stored once.
   Json f32(std::span<const float> values);
   Json f32(std::span<const double> values);
-  Json u16(std::span<const std::uint16_t> values);
   Json u8(std::span<const std::uint8_t> values);
 
   /// The values of `components` columns, a row after the other, each column quantized on its own:

@@ -288,6 +288,7 @@ Result<PageData> run_page(const fs::path& folder) {
       {"version", member(run->scores.is_object() ? run->scores : run->estimate, "version")},
       {"t0_s", start},
       {"palette", palette_json()},
+      {"score_list", score_list_json()},
       {"warnings", member(run->estimate, "warnings")},
       {"reading", member(run->estimate, "notes")},
       {"failures", failures_json(*run)},

@@ -95,7 +95,7 @@ Result<PageData> seeds_page(const fs::path& folder, const PageOptions& options) 
     if (!record) return tl::unexpected(record.error());
     if (only.runs.empty()) only.scenario = scenario_of(run_folder, *record, notes);
     rows.push_back(suite_run_json(only.scenario.name, record->seed, &*record, run_folder,
-                                  page_folder, headline_scores_json()));
+                                  page_folder, headline_keys()));
     only.runs.push_back(std::move(*record));
   }
   if (only.runs.empty()) return failure(folder.string() + ": expected seed-N/scores.json");
@@ -119,7 +119,8 @@ Result<PageData> seeds_page(const fs::path& folder, const PageOptions& options) 
                {"version", version},
                {"palette", palette_json()},
                {"styles", styles_json(suite_estimators(summary))},
-               {"headline", headline_scores_json()},
+               {"score_list", score_list_json()},
+               {"headline", headline_keys()},
                {"runs", std::move(rows)},
                {"roc", nullptr},
                {"compare", nullptr},

@@ -91,6 +91,22 @@ PageData::Json palette_json() {
   return palette;
 }
 
+Json score_list_json(const std::string& lead, const std::string& lead_unit) {
+  Json list = Json::array();
+  const auto add = [&list](const std::string& key, std::string_view title, std::string_view unit) {
+    list.push_back(
+        {{"key", key}, {"title", title}, {"unit", unit}, {"better", name_of(better_of(key))}});
+  };
+  const auto scores = score_list();
+  if (!lead.empty()) {
+    const auto listed = std::ranges::find(scores, lead, &Score::key);
+    const bool titled = listed != scores.end() && !listed->title.empty();
+    add(lead, titled ? listed->title : lead, lead_unit);
+  }
+  for (const Score& each : scores) add(each.key, each.title, unit_of(each.key));
+  return list;
+}
+
 PageData::Json styles_json(const std::vector<std::string>& labels) {
   PageData::Json styles = PageData::Json::object();
   const std::vector<std::size_t> indices = series_styles(labels);

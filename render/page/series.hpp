@@ -54,6 +54,10 @@ PageData::Json poses_json(const Trajectory& poses, double start, PageData& page)
 /// dashes as lengths of line and gap in turn [px].
 PageData::Json palette_json();
 
+/// The list of scores: key, title, unit, which is "better" (smaller, larger or neither); before it
+/// `lead`, the score of a data set, if there is one, in the unit of its authors.
+Json score_list_json(const std::string& lead = "", const std::string& lead_unit = "");
+
 /// Index of the style of each label.
 PageData::Json styles_json(const std::vector<std::string>& labels);
 

@@ -189,14 +189,15 @@ Result<PageData> suite_page(const fs::path& folder, const PageOptions& options) 
   if (!benchmark.is_null() && !text_in(benchmark, "title").empty()) {
     page.title = text_in(benchmark, "title");
   }
-  const Json headline =
-      headline_scores_json(text_in(benchmark, "score"), text_in(benchmark, "unit"));
+  const std::string lead = text_in(benchmark, "score");
+  const Json headline = headline_keys(lead);
   const fs::path page_folder = options.out_folder.empty() ? folder : options.out_folder;
   Json runs = runs_of(*suite, folder, page_folder, headline, notes);
   page.json = {{"schema", kPageSchema},
                {"kind", "suite"},
                {"title", page.title},
                {"version", text_in(*suite, "version")},
+               {"score_list", score_list_json(lead, text_in(benchmark, "unit"))},
                {"headline", headline},
                {"runs", std::move(runs)},
                {"roc", std::move(*detectors)},

@@ -21,10 +21,7 @@ Json outcome_of(const RunRecord& run, const std::string& estimator, const Json& 
   Json outcome = {{"success", member(scores, "success")},
                   {"diverged_at_s", json_of(find_score(run, estimator, "diverged_at_s"))},
                   {"diverged_reason", text_in(scores, "diverged_reason")}};
-  for (const Json& score : headline) {
-    const std::string key = text_in(score, "key");
-    outcome[key] = json_of(find_score(run, estimator, key));
-  }
+  for (const std::string key : headline) outcome[key] = json_of(find_score(run, estimator, key));
   return outcome;
 }
 
@@ -55,24 +52,13 @@ Json suite_run_json(const std::string& scenario, std::uint64_t seed, const RunRe
   return run;
 }
 
-Json headline_scores_json(const std::string& first, const std::string& unit) {
-  Json scores = Json::array();
-  const auto add = [&scores](const std::string& key, std::string_view title, std::string_view of) {
-    scores.push_back({{"key", key},
-                      {"title", title},
-                      {"unit", of},
-                      {"better", better_of(key) == Better::kLarger ? "larger" : "smaller"}});
-  };
-  if (!first.empty()) {
-    const auto listed = std::ranges::find_if(
-        score_list(), [&first](const Score& each) { return each.key == first; });
-    const bool titled = listed != score_list().end() && !listed->title.empty();
-    add(first, titled ? listed->title : std::string_view(first), unit);
-  }
+Json headline_keys(const std::string& first) {
+  Json keys = Json::array();
+  if (!first.empty()) keys.push_back(first);
   for (const Score& each : headline_scores()) {
-    if (each.key != first) add(each.key, each.title, each.unit);
+    if (each.key != first) keys.push_back(each.key);
   }
-  return scores;
+  return keys;
 }
 
 std::vector<std::string> suite_estimators(const Json& suite) {

@@ -9,13 +9,14 @@
 namespace aims {
 
 /// A run of a suite as its page shows it, with a link to its own page where one lies there.
-/// `record`: its scores, of which `headline` leads; null when its jobs have none.
+/// `record`: its scores, of which those of the keys in `headline` lead; null when its jobs have
+/// none.
 Json suite_run_json(const std::string& scenario, std::uint64_t seed, const RunRecord* record,
                     const std::filesystem::path& run_folder,
                     const std::filesystem::path& page_folder, const Json& headline);
 
-/// Keys, titles and units of the scores that lead; `first`, if there is one, before all others.
-Json headline_scores_json(const std::string& first = "", const std::string& unit = "");
+/// Keys of the scores that lead; `first`, if there is one, before all others.
+Json headline_keys(const std::string& first = "");
 
 /// Names of all estimators of a suite.json, in the order in which its scenarios have them.
 std::vector<std::string> suite_estimators(const Json& suite);

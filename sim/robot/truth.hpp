@@ -8,7 +8,7 @@
 #include "core/measurements.hpp"
 #include "core/scan_information.hpp"
 #include "core/trajectory.hpp"
-#include "sim/robot/walk_outcome.hpp"
+#include "core/walk_outcome.hpp"
 #include "sim/robot/mounts.hpp"
 
 namespace aims {

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/time.hpp"
+#include "core/walk_outcome.hpp"
 #include "sim/environment/scene.hpp"
 #include "sim/robot/route.hpp"
-#include "sim/robot/walk_outcome.hpp"
 #include "sim/robot/walker.hpp"
 
 namespace aims {

@@ -70,7 +70,7 @@ done
 
 # depends PACKAGE: one name a line.
 depends() { dpkg-deb -f "$1" Depends | tr ',' '\n' | sed 's/^ *//; s/ .*//'; }
-for name in libc6 libstdc++6 libcairo2 libfmt9 libyaml-cpp0.7 fonts-dejavu-core; do
+for name in libc6 libstdc++6 libcairo2 libfmt9 libyaml-cpp0.7 libsqlite3-0 fonts-dejavu-core; do
   depends "$program" | grep -xF "$name" >"$work/found" || fail "$program does not depend on $name"
 done
 for name in libeigen3-dev libfmt-dev libexpected-dev libyaml-cpp-dev libboost-dev liblz4-dev \

@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-#include "bench/run/simulated_rings.hpp"
+#include "bench/run/estimator_fit.hpp"
 #include "bench/scenario/model_sheets.hpp"
 #include "bench/scenario/scenario.hpp"
 #include "core/angle.hpp"

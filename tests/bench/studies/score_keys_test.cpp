@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "bench/tuning/objective.hpp"
+#include "bench/scoring/score_list.hpp"
 #include "tests/bench/studies/short_walk.hpp"
 
 namespace aims {
@@ -59,14 +59,29 @@ TEST(ScoreKeys, FollowTheSegmentsOfTheScenario) {
   EXPECT_FALSE(check_score("it", "m_list_percent.b-a", scenario));
 }
 
-/// The page and the axes of sweeps take the unit from the key.
-TEST(ScoreList, HasTheUnitsThatItsKeysName) {
+/// The unit that the last part of a key ends with; none where it names none.
+std::string named_unit(const std::string& key) {
+  static const std::vector<std::pair<std::string, std::string>> kEndings = {
+      {"_percent", "%"}, {"_deg_per_m", "deg/m"}, {"_ms", "ms"},  {"_m", "m"},
+      {"_s", "s"},       {"_mrad", "mrad"},       {"_rad", "rad"}};
+  const auto found =
+      std::ranges::find_if(kEndings, [&](const auto& each) { return key.ends_with(each.first); });
+  return found == kEndings.end() ? "" : found->second;
+}
+
+TEST(ScoreList, HasEveryScoreOfARunInTheUnitThatItsKeyNames) {
   for (const Score& score : score_list()) {
     EXPECT_EQ(&score_at(score.key), &score) << "a key above it comes first";
-    const std::string named = unit_of_score(score.key);
+  }
+  for (const std::string& key : possible_score_keys(test::short_walk())) {
+    if (key == "success_1_percent") continue;  // its limit
+    const std::string named = named_unit(key);
     if (!named.empty()) {
-      EXPECT_EQ(named, score.unit) << score.key;
+      EXPECT_EQ(unit_of(key), named) << key;
     }
+    EXPECT_TRUE(std::ranges::any_of(score_list(), [&](const Score& each) {
+      return &each == &score_at(key);
+    })) << key;
   }
 }
 

@@ -209,10 +209,20 @@ TEST(Objective, OfATimeSaysThatItDependsOnTheMachine) {
   EXPECT_NE(text_of(objective).find("a time depends on the machine"), std::string::npos);
 }
 
-TEST(Objective, HasTheUnitOfTheLastPartOfItsScore) {
-  EXPECT_EQ(unit_of_score("drift_m.rmse.heading_rad"), "rad");
-  EXPECT_EQ(unit_of_score("drift_m.rmse.longitudinal"), "m");
-  EXPECT_EQ(unit_of_score("m_list_percent.all"), "%");
+TEST(Objective, HasTheUnitOfItsScore) {
+  Objective objective = absolute();
+  const auto label_of = [&](const char* score) {
+    objective.score = score;
+    return value_label(objective);
+  };
+  EXPECT_EQ(label_of("drift_m.rmse.heading_rad"), "drift_m.rmse.heading_rad [rad]");
+  EXPECT_EQ(label_of("optimized.ate_m"), "optimized.ate_m [m]");
+  EXPECT_EQ(label_of("coverage"), "coverage");
+}
+
+TEST(Objective, OfAReoptimizedTrajectoryIsMinimizedAsThatOfTheOther) {
+  EXPECT_FALSE(check_direction("it", "optimized.success"));
+  EXPECT_TRUE(check_direction("it", "optimized.ate_m"));
 }
 
 TEST(BestPoint, KeepsTheDefaultOfAParameterWithoutEffect) {

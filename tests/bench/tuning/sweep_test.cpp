@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/jobs/job_runner.hpp"
 
-#include <SQLiteCpp/SQLiteCpp.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <set>
+#include <string>
 
 #include "bench/jobs/job_store.hpp"
 #include "bench/tuning/sweep_plan.hpp"
 #include "bench/tuning/sweep_store.hpp"
 #include "bench/tuning/tune_plan.hpp"
 #include "core/files/atomic_file.hpp"
+#include "core/files/sqlite_database.hpp"
 #include "tests/bench/short_walk.hpp"
 #include "tests/support/parameter_bounds.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -209,19 +211,21 @@ TEST_F(Sweep, MergesFoldersIntoOneDatabaseAndTable) {
   const fs::path file = folder_.path() / "sweep.sqlite";
   ASSERT_TRUE(write_sqlite(*merged, file));
   ASSERT_TRUE(write_sqlite(*merged, file)) << "over an earlier one";
-  const SQLite::Database database(file.string());
-  SQLite::Statement query(database,
-                          "SELECT p.value, s.value, u.seed FROM jobs u JOIN parameters p "
-                          "USING (job) JOIN scores s USING (job) WHERE p.key = 'queue.max_ahead' "
-                          "AND s.key = 'm_end_m' AND u.outcome = 'done' ORDER BY p.value");
+  const auto database = SqliteDatabase::open(file, 1000);
+  ASSERT_TRUE(database);
+  auto query = database->prepare(
+      "SELECT CAST(p.value AS INTEGER), printf('%!.17g', s.value), u.seed FROM jobs u "
+      "JOIN parameters p USING (job) JOIN scores s USING (job) WHERE p.key = 'queue.max_ahead' "
+      "AND s.key = 'm_end_m' AND u.outcome = 'done' ORDER BY p.value");
+  ASSERT_TRUE(query) << query.error().message;
   for (std::size_t i = 0; i < 2; ++i) {
-    ASSERT_TRUE(query.executeStep());
-    EXPECT_EQ(query.getColumn(0).getDouble(), i == 0 ? 100.0 : 200.0);
+    ASSERT_TRUE(query->step().value());
+    EXPECT_EQ(query->integer(0), i == 0 ? 100 : 200);
     const JobStore folder(i == 0 ? first : options_.out);
-    EXPECT_EQ(query.getColumn(1).getDouble(), score_in(*folder.find(jobs_[i].id), "m_end_m"));
-    EXPECT_EQ(query.getColumn(2).getInt(), 1);
+    EXPECT_EQ(std::stod(query->text(1)), score_in(*folder.find(jobs_[i].id), "m_end_m"));
+    EXPECT_EQ(query->integer(2), 1);
   }
-  EXPECT_FALSE(query.executeStep());
+  EXPECT_FALSE(query->step().value());
 
   const fs::path csv = folder_.path() / "sweep.csv";
   ASSERT_TRUE(write_sweep_csv(*merged, csv));

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
+#include "core/files/crc32.hpp"
 #include "recordings/clouds/point_table.hpp"
-#include "recordings/mcap/crc32.hpp"
 #include "recordings/mcap/mcap_reader.hpp"
 #include "recordings/mcap/mcap_record_builder.hpp"
 #include "recordings/mcap/mcap_writer.hpp"

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 
+#include "core/files/sqlite_database.hpp"
 #include "core/files/yaml_scalars.hpp"
 #include "recordings/messages/ros2_definition.hpp"
 #include "recordings/rosbag2/rosbag2_metadata.hpp"
 #include "recordings/rosbag2/rosbag2_reader.hpp"
 #include "recordings/rosbag2/rosbag2_writer.hpp"
-#include "recordings/rosbag2/sqlite_database.hpp"
 #include "recordings/source/recording_file.hpp"
 #include "tests/recordings/bag/bag_samples.hpp"
 #include "tests/support/temporary_folder.hpp"

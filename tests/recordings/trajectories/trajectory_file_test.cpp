@@ -9,11 +9,11 @@
 #include <limits>
 #include <optional>
 
+#include "core/files/pose_cleaning.hpp"
 #include "recordings/bag/bag_writer.hpp"
 #include "recordings/messages/message_encoding.hpp"
 #include "recordings/messages/message_types.hpp"
 #include "recordings/trajectories/bag_trajectory.hpp"
-#include "recordings/trajectories/pose_cleaning.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace aims {

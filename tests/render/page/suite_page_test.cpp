@@ -170,18 +170,19 @@ TEST(SuitePage, OfABenchmarkLeadsWithItsScore) {
   const auto page = suite_page(folder.path(), {});
   ASSERT_TRUE(page) << page.error().message;
   EXPECT_EQ(page->title, "A data set");
-  const Json first = page->json["headline"][0];
+  const Json first = page->json["score_list"][0];
   EXPECT_EQ(first["key"], "control_points.score");
   EXPECT_EQ(first["unit"], "of 100");
   EXPECT_EQ(first["better"], "larger");
-  EXPECT_EQ(page->json["headline"][1]["key"], "ate_yaw_m");
+  EXPECT_EQ(page->json["headline"][0], first["key"]);
+  EXPECT_EQ(page->json["headline"][1], "ate_yaw_m");
   EXPECT_EQ(page->json["runs"][0]["estimators"]["aims"]["control_points.score"], 60.0);
   EXPECT_EQ(page->json["benchmark"], benchmark);
   put(folder.path() / "benchmark.json", "{}");
   const auto broken = suite_page(folder.path(), {});
   ASSERT_TRUE(broken);
   EXPECT_TRUE(broken->json["benchmark"].is_null());
-  EXPECT_EQ(broken->json["headline"][0]["key"], "ate_yaw_m");
+  EXPECT_EQ(broken->json["headline"][0], "ate_yaw_m");
 }
 
 TEST(SuitePage, LinksToTheRunsThatHaveAPageFromWhereItLies) {

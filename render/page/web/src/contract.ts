@@ -14,6 +14,14 @@ export interface SeriesStyle {
   dash: number[];
 }
 
+/** A score of the list that all of the program takes titles and units from. */
+export interface ListedScore {
+  key: string;
+  title: string;
+  unit: string;
+  better: string;
+}
+
 export interface PagePayload {
   schema: string;
   kind: string;
@@ -221,6 +229,7 @@ export interface RunPayload extends PagePayload {
   command?: string | null;
   config_yaml?: string | null;
   config_changes?: ConfigChange[] | null;
+  score_list: ListedScore[];
   /** scores.json as it was written. */
   scores: Json;
   /** Estimators whose estimate lacks a part of the run (`is_partial`). */

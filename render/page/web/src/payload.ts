@@ -2,7 +2,7 @@
 /** Payload: base64 of zlib of (u32 length of JSON, JSON, padding to 8, blob). */
 import type { PagePayload } from "./contract";
 
-const kArrays = { f32: Float32Array, u16: Uint16Array, u8: Uint8Array } as const;
+const kArrays = { f32: Float32Array, u8: Uint8Array } as const;
 type ArrayKind = keyof typeof kArrays;
 
 interface Reference {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A made-up run along a corridor: truth, estimators that drift, maps, scores.
 import { picture } from "./made_picture.mjs";
+import { kScoreList } from "./score_list.mjs";
 
 /** Uniform numbers in [0, 1), the same every time. */
 export function generator(seed) {
@@ -284,6 +285,7 @@ export function run({
       { key: "route.speed", value: 0.7, default: 0.5, unit: "m/s" },
     ],
     partial: [],
+    score_list: kScoreList,
     scores: {
       schema: "aims.scores/1",
       segments: [

@@ -4,7 +4,6 @@ import { deflateSync, inflateSync } from "node:zlib";
 
 const kKinds = new Map([
   [Float32Array, "f32"],
-  [Uint16Array, "u16"],
   [Uint8Array, "u8"],
 ]);
 
@@ -76,7 +75,7 @@ export function payloadOf(html) {
   const bytes = inflateSync(Buffer.from(base64, "base64"));
   const length = bytes.readUInt32LE(0);
   const blob = bytes.subarray(Math.ceil((4 + length) / 8) * 8);
-  const types = { f32: Float32Array, u16: Uint16Array, u8: Uint8Array };
+  const types = { f32: Float32Array, u8: Uint8Array };
   return JSON.parse(bytes.subarray(4, 4 + length).toString("utf8"), (_key, value) => {
     if (value?.$ === "q16") return dequantized(value, blob);
     const type = types[value?.$];

@@ -36,7 +36,8 @@ test("the matrix shows the suite's own numbers", { skip }, async () => {
 test("a benchmark leads with its own score, whatever other scores order", { skip }, async () => {
   const data = suite({ names: ["day"] });
   const key = "control_points.score";
-  data.headline = [{ key, title: key, unit: "of 100", better: "larger" }, ...data.headline];
+  data.score_list = [{ key, title: key, unit: "of 100", better: "larger" }, ...data.score_list];
+  data.headline = [key, ...data.headline];
   const [day] = data.suite.scenarios;
   day.estimators.a.scores[key] = { median: 40, worst: 40, count: 3 };
   day.estimators.b.scores[key] = { median: 60, worst: 60, count: 3 };
@@ -263,6 +264,28 @@ test("a cell opens its runs, and runs link to their pages", { skip }, async () =
   assert.match(await shown.innerText(), /✕ diverged at 12.5 s: error_limit/);
   assert.equal(await shown.locator("a").first().getAttribute("href"), "runs/severity_3/seed-1/page.html");
   assert.equal(await page.locator('#matrix tr[data-row="alone"] .runs-links a').count(), 1);
+});
+
+test("every score has the unit of the list, and is best at the end that the list says", { skip }, async () => {
+  const data = suite({ names: ["alone"] });
+  const units = {
+    "time_per_scan_ms.mean": "ms", "path_error_deg_per_m.all": "deg/m", "drift_m.rmse.tilt_rad": "rad", "optimized.ate_m": "m",
+    "weak_axis.all.nees": "", coverage: "",
+  };
+  const { a, b } = data.suite.scenarios[0].estimators;
+  for (const [own, value] of [[a, 1], [b, 2]])
+    for (const key of Object.keys(units)) own.scores[key] = { median: value, worst: value, count: 3 };
+  const { page, troubles } = await pages.show(data);
+  const best = (name) => page.locator(`#matrix td.best[data-estimator="${name}"]`).count();
+  for (const [key, marked] of [["time_per_scan_ms.mean", [1, 0]], ["coverage", [0, 1]], ["weak_axis.all.nees", [0, 0]]]) {
+    await page.locator("#matrix").getByLabel("Score").selectOption(key);
+    assert.deepEqual([await best("a"), await best("b")], marked, key);
+  }
+  await cell(page, "alone", "a").locator("button").click();
+  await page.locator(".cell-details summary").click();
+  for (const [key, unit] of Object.entries(units))
+    assert.equal(await page.locator(`.cell-details tr[data-row="${key}"] td`).first().innerText(), unit, key);
+  assert.deepEqual(troubles, []);
 });
 
 test("arrow keys move in the matrix and Enter opens a cell", { skip }, async () => {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Made-up suites and sweeps, as the C++ side hands them to a page.
 
+import { kScoreList } from "./score_list.mjs";
+
 export const kHostile = `</script><script>window.broken=1</script><img src=x onerror="window.broken=1">`;
 
-const kHeadline = [
-  { key: "m_list_percent.all", title: "M_list", unit: "%" }, { key: "m_end_m", title: "M_end", unit: "m" },
-  { key: "ate_m", title: "ATE", unit: "m" }, { key: "max_error_z_m", title: "max |z|", unit: "m" },
-];
+const kHeadline = ["m_list_percent.all", "m_end_m", "ate_m", "max_error_z_m"];
 
 function score(median, count = 3) {
   return { median, worst: median === null ? null : 2 * median, count, median_low: median === null ? null : 0.8 * median, median_high: median === null ? null : 1.3 * median };
@@ -46,7 +45,7 @@ export function suite({ first = "a", names = ["severity_1", "severity_2", "sever
     },
   })));
   return {
-    schema: "aims.page/2", kind: "suite", title: "Suite made up", version: "0.1.0", headline: kHeadline, runs, roc: null, compare: null, notes: [],
+    schema: "aims.page/2", kind: "suite", title: "Suite made up", version: "0.1.0", score_list: kScoreList, headline: kHeadline, runs, roc: null, compare: null, notes: [],
     suite: {
       schema: "aims.suite/1", version: "0.1.0", code: "0123456789abcdef", complete: true, scenarios, failures: [],
       success_pairs: [{ first, second: "b", sequences: 12, seeds: 6, tests: { success: { only_first: 4, only_second: 0, seeds_first: 3, seeds_second: 0, p: 0.25 },

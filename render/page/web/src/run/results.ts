@@ -3,6 +3,7 @@
 import type { Estimator, RunPayload } from "../contract";
 import { at, h, own, section, type Child } from "../dom";
 import { formatFixed, formatNumber, isNumber, kNone } from "../format";
+import { bestEnd, scoreAt } from "../scores";
 import { sortableTable, type CellValue, type Column } from "../table";
 import { lineSample } from "../charts/svg";
 import { failureMark, kPartLegend, partText } from "../outcome";
@@ -46,13 +47,14 @@ function nameCell(row: Row): Child {
 const nameColumn: Column<Row> = { title: "Estimator", value: (row) => row.name, show: nameCell };
 const success = (row: Row) => at(row.scores, "success") === true;
 
-/** Column of a score that is better the smaller it is; an estimator that diverged is never best. */
-function score(title: string, unit: string, path: string[], hint?: string): Column<Row> {
+/** Column of a score, with the list's title where it gets no other; an estimator that diverged is never best. */
+function score(data: RunPayload, path: string[], hint: string, title?: string): Column<Row> {
+  const listed = scoreAt(data.score_list, path.join("."));
   return {
-    title,
-    unit,
+    title: title ?? listed?.title ?? path.join("."),
+    unit: listed?.unit,
     hint,
-    best: "low",
+    best: bestEnd(listed),
     eligible: success,
     value: (row) => numberAt(row.scores, ...path),
   };
@@ -73,17 +75,13 @@ function partLegend(list: Row[], columns: Column<Row>[]): string {
 function milli(column: Column<Row>): Column<Row> {
   return {
     ...column,
+    unit: `m${column.unit}`,
     value: (row) => {
       const value = column.value(row);
       return isNumber(value) ? 1000 * value : null;
     },
   };
 }
-
-const yawColumn = score(
-  "ATE yaw", "m", ["ate_yaw_m"],
-  "RMSE of position after alignment by heading and translation, which LiDAR-inertial odometry cannot observe");
-const startColumn = score("ATE start", "m", ["ate_m"], "RMSE of position, aligned by the first pose alone");
 
 function segmentNames(data: RunPayload): string[] {
   const segments = own<unknown>(data.scores, "segments");
@@ -105,10 +103,11 @@ export function endNote(list: Pick<Row, "name" | "scores">[]): string {
 function paperTable(data: RunPayload, list: Row[]): HTMLElement {
   const columns: Column<Row>[] = [
     nameColumn,
-    yawColumn,
-    score("M_list", "%", ["m_list_percent", "all"], "Error of the distances between reference points, eq. (13)"),
-    score("M_end", "m", ["m_end_m"], "Error of the displacement from start to end, eq. (14)"),
-    score("max |z|", "m", ["max_error_z_m"], "Largest height error"),
+    score(data, ["ate_yaw_m"],
+      "RMSE of position after alignment by heading and translation, which LiDAR-inertial odometry cannot observe"),
+    score(data, ["m_list_percent", "all"], "Error of the distances between reference points, eq. (13)"),
+    score(data, ["m_end_m"], "Error of the displacement from start to end, eq. (14)"),
+    score(data, ["max_error_z_m"], "Largest height error"),
     { title: "Success", hint: "Or when it diverged, in seconds after the start", value: (row) => outcome(data, row) },
     ...(list.some((row) => at(row.scores, "health", "worst") !== undefined) ? [healthColumn] : []),
   ];
@@ -164,31 +163,24 @@ function outcome(data: RunPayload, row: Row): string {
 
 /** Columns in which at least one estimator has a value. */
 function errorTable(data: RunPayload, list: Row[]): HTMLElement {
+  const rmse = (axis: string, hint: string, title = axis) => score(data, ["drift_m", "rmse", axis], hint, title);
   const scores: Column<Row>[] = [
-    ...segmentNames(data).map((name) =>
-      score(
-        `M_list(${name})`,
-        "%",
-        ["m_list_percent", name],
-        "Error of the straight distance between reference points, eq. (13)",
-      ),
-    ),
-    startColumn,
-    score("ATE SE(3)", "m", ["ate_se3_m"], "RMSE after SE(3) alignment"),
-    score("max", "m", ["max_error_m"], "Largest position error, anchored at the start"),
-    score("RPE 1 m", "m", ["rpe_1m", "translation_m"], "Relative pose error over 1 m travelled"),
-    score(
-      "RPE 10 m",
-      "m",
-      ["rpe_10m", "translation_m"],
-      "Relative pose error over 10 m travelled; –: the path is below 20 m, the first piece begins after 10 m",
-    ),
-    score("heading", "mrad", ["heading_error_mrad"], "RMSE of the yaw after the alignment by heading"),
-    score("longitudinal", "m", ["drift_m", "rmse", "longitudinal"], "RMSE along the true heading"),
-    score("lateral", "m", ["drift_m", "rmse", "lateral"], "RMSE across the true heading"),
-    score("vertical", "m", ["drift_m", "rmse", "vertical"], "RMSE of the height"),
-    milli(score("heading, start", "mrad", ["drift_m", "rmse", "heading_rad"], "RMSE of the heading, aligned at the start")),
-    milli(score("tilt", "mrad", ["drift_m", "rmse", "tilt_rad"], "RMSE of roll and pitch together")),
+    ...segmentNames(data).map((name) => {
+      const column = score(data, ["m_list_percent", name], "Error of the straight distance between reference points, eq. (13)");
+      return { ...column, title: `${column.title}(${name})` };
+    }),
+    score(data, ["ate_m"], "RMSE of position, aligned by the first pose alone"),
+    score(data, ["ate_se3_m"], "RMSE after SE(3) alignment"),
+    score(data, ["max_error_m"], "Largest position error, anchored at the start", "max"),
+    score(data, ["rpe_1m", "translation_m"], "Relative pose error over 1 m travelled"),
+    score(data, ["rpe_10m", "translation_m"],
+      "Relative pose error over 10 m travelled; –: the path is below 20 m, the first piece begins after 10 m"),
+    score(data, ["heading_error_mrad"], "RMSE of the yaw after the alignment by heading"),
+    rmse("longitudinal", "RMSE along the true heading"),
+    rmse("lateral", "RMSE across the true heading"),
+    rmse("vertical", "RMSE of the height"),
+    milli(rmse("heading_rad", "RMSE of the heading, aligned at the start", "heading, start")),
+    milli(rmse("tilt_rad", "RMSE of roll and pitch together", "tilt")),
   ];
   const known = scores.filter((column) => list.some((row) => column.value(row) !== null));
   return sortableTable(list, [nameColumn, ...withParts(known)], {
@@ -197,16 +189,12 @@ function errorTable(data: RunPayload, list: Row[]): HTMLElement {
   });
 }
 
-function timeTable(list: Row[]): HTMLElement | null {
+function timeTable(data: RunPayload, list: Row[]): HTMLElement | null {
+  const p99 = (column: Column<Row>) => ({ ...column, title: `${column.title} p99` });
   const scores: Column<Row>[] = [
-    score("CPU", "ms", ["cpu_per_scan_ms", "mean"], "Processor time from one scan to the next"),
-    score("CPU p99", "ms", ["cpu_per_scan_ms", "p99"], "99th percentile of the processor time"),
-    score(
-      "wall p99",
-      "ms",
-      ["time_per_scan_ms", "p99"],
-      "99th percentile of the wall time, which grows on a busy machine",
-    ),
+    score(data, ["cpu_per_scan_ms", "mean"], "Processor time from one scan to the next"),
+    p99(score(data, ["cpu_per_scan_ms", "p99"], "99th percentile of the processor time")),
+    p99(score(data, ["time_per_scan_ms", "p99"], "99th percentile of the wall time, which grows on a busy machine")),
   ];
   const known = scores.filter((column) => list.some((row) => column.value(row) !== null));
   if (known.length === 0) return null;
@@ -376,7 +364,7 @@ export function detailSection(data: RunPayload): HTMLElement | null {
       { class: "tables" },
       h("div", { "data-table": "errors" }, errorTable(data, list)),
       weakTable(list),
-      h("div", { "data-table": "times" }, timeTable(list)),
+      h("div", { "data-table": "times" }, timeTable(data, list)),
       healthTable(data),
     ),
     truthLine(data),

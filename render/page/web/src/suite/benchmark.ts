@@ -4,7 +4,7 @@ import { notes } from "../charts/controls";
 import { h, section } from "../dom";
 import { isNumber } from "../format";
 import { sortableTable, type Column } from "../table";
-import { bestEnd, titleOf, type Benchmark, type SuitePayload } from "./model";
+import { scoreOf, type Benchmark, type SuitePayload } from "./model";
 
 type Sequence = Benchmark["sequences"][number];
 
@@ -46,10 +46,10 @@ function verdict(data: SuitePayload, benchmark: Benchmark): HTMLElement | null {
   const scored = benchmark.sequences.filter((each) => Object.values(each.ours).some(isNumber));
   const only = scored[0];
   if (scored.length !== 1 || !only) return null;
-  const large = bestEnd({ key: "", title: "", unit: "", better: benchmark.better }) === "high";
+  const large = benchmark.better === "larger";
   const found = Object.entries(only.ours).filter((each): each is [string, number] => isNumber(each[1]))
     .sort((a, b) => (large ? b[1] - a[1] : a[1] - b[1]));
-  const { title } = titleOf(data.headline, benchmark.score);
+  const { title } = scoreOf(data, benchmark.score);
   const text = found.map(([name, value]) => `${name} ${value.toFixed(3)}`).join(", ");
   return h("div", { class: "verdict", "data-verdict": "plain", role: "status" },
     h("p", {}, h("strong", {}, `${title} [${benchmark.unit}] on ${only.name}: ${text}.`)));

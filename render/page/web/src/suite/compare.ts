@@ -4,7 +4,7 @@ import { choice, notes } from "../charts/controls";
 import { h, section } from "../dom";
 import { formatNumber, isNumber } from "../format";
 import { sortableTable } from "../table";
-import { titleOf, type Comparison, type ScoreChange, type SuitePayload } from "./model";
+import { labelOf, scoreOf, type Comparison, type ScoreChange, type SuitePayload } from "./model";
 
 const kVerdicts: Record<string, string> = {
   better: "▲ better", worse: "▼ worse", "too few": "? too few seeds", small: "= below the relevant change",
@@ -26,10 +26,7 @@ function changeTable(data: SuitePayload, rows: ScoreChange[], caption: string): 
     { title: "estimator", value: (row) => row.estimator },
     {
       title: "score", value: (row) => row.score,
-      show: (row) => {
-        const { title, unit } = titleOf(data.headline, row.score);
-        return unit && row.score !== "success" ? `${title} [${unit}]` : title;
-      },
+      show: (row) => labelOf(scoreOf(data, row.score)),
     },
     { title: "seeds", value: (row) => row.seeds, show: (row) => String(row.seeds) },
     { title: "before", value: (row) => row.before },
@@ -86,7 +83,7 @@ export function compareSection(data: SuitePayload): HTMLElement | null {
         ...kRank.map((each) => ({ value: each, label: verdictText(each) })), { value: "all", label: "all" },
       ], verdict, (value) => { verdict = value; draw(); }),
       choice("Score", [{ value: "", label: "all" },
-        ...scores.map((each) => ({ value: each, label: titleOf(data.headline, each).title }))], "",
+        ...scores.map((each) => ({ value: each, label: scoreOf(data, each).title }))], "",
       (value) => { score = value; draw(); })),
     place, only(`Fails in ${compare.after} alone`, compare.fails_now ?? []), only(`Fails in ${compare.before} alone`, compare.fails_no_more ?? []), only("Success alone compared: an estimate lacks a part of the run", compare.partial ?? []), only(`Only in ${compare.before}`, compare.only_before), only(`Only in ${compare.after}`, compare.only_after));
 }

@@ -3,8 +3,9 @@
 import { h } from "../dom";
 import { isNumber } from "../format";
 import { failureMark, kPartLegend, partText, reasonName } from "../outcome";
+import { bestEnd } from "../scores";
 import { sortableTable, type Column } from "../table";
-import { bestEnd, runsOf, summaryOf, titleOf, type Run, type ScoreSummary, type SuitePayload, type SuiteScenario } from "./model";
+import { headlineOf, runsOf, scoreOf, summaryOf, type Run, type ScoreSummary, type SuitePayload, type SuiteScenario } from "./model";
 
 function outcome(run: Run, estimator: string): Record<string, unknown> {
   return Object.hasOwn(run.estimators, estimator) ? run.estimators[estimator]! : {};
@@ -36,7 +37,7 @@ function runTable(data: SuitePayload, scenario: SuiteScenario, estimator: string
         return `✕ diverged${at === null ? "" : ` at ${at.toFixed(1)} s`}${why ? `: ${why}` : ""}`;
       },
     },
-    ...data.headline.map((score): Column<Run> => ({
+    ...headlineOf(data).map((score): Column<Run> => ({
       title: score.title, unit: score.unit, best: bestEnd(score), eligible: (run) => !run.invalid && !isPart(run),
       value: (run) => numberAt(outcome(run, estimator), score.key),
       show: (run) => partText(numberAt(outcome(run, estimator), score.key), isPart(run)),
@@ -52,7 +53,7 @@ function scoreTable(data: SuitePayload, scenario: SuiteScenario, estimator: stri
   type Row = [string, ScoreSummary];
   return sortableTable<Row>(scores, [
     { title: "score", value: ([key]) => key },
-    { title: "unit", value: ([key]) => titleOf(data.headline, key).unit },
+    { title: "unit", value: ([key]) => scoreOf(data, key).unit },
     {
       title: "median", value: ([, score]) => score.median,
       interval: ([, score]) => isNumber(score.median_low) && isNumber(score.median_high)

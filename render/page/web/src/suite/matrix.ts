@@ -7,7 +7,7 @@ import { formatNumber, isNumber, kNone } from "../format";
 import { failureCount, kPartLegend, partMark } from "../outcome";
 import { details } from "./details";
 import {
-  bestEnd, estimatorsOf, firstScore, isWhole, kSuccessRate, reasonsOf, runsOf, scoreKeysOf, summaryOf, titleOf, valueOf,
+  estimatorsOf, firstScore, headlineOf, isWhole, kSuccessRate, labelOf, reasonsOf, runsOf, scoreKeysOf, scoreOf, summaryOf, valueOf,
   type SuitePayload, type SuiteScenario,
 } from "./model";
 
@@ -25,9 +25,9 @@ interface View {
 
 function scoreChoices(data: SuitePayload): Choice[] {
   const keys = scoreKeysOf(data);
-  const headline = data.headline.filter((each) => keys.includes(each.key))
-    .map((each) => ({ value: each.key, label: `${each.title} [${each.unit}]` }));
-  const others = keys.filter((key) => !data.headline.some((each) => each.key === key))
+  const headline = headlineOf(data).filter((each) => keys.includes(each.key))
+    .map((each) => ({ value: each.key, label: labelOf(each) }));
+  const others = keys.filter((key) => !data.headline.includes(key))
     .map((key) => ({ value: key, label: key, group: "all scores" }));
   return [...headline, { value: kSuccessRate, label: "success rate" }, ...others];
 }
@@ -99,13 +99,13 @@ function isComparable(data: SuitePayload, scenario: string, estimator: string, v
   return kOfWholeRuns.has(view.score) || isWhole(data, scenario, estimator);
 }
 
-/** Text of the best value of a row, of those whose estimates are whole: the smallest, for the success rate the largest. */
+/** Text of the best value of a row, of those whose estimates are whole; null of a score of which neither end is better. */
 function bestOf(data: SuitePayload, row: SuiteScenario, estimators: string[], view: View): string | null {
   const comparable = estimators.filter((name) => isComparable(data, row.name, name, view));
   const values = numbers([row], comparable, view);
-  if (values.length < 2 || view.score.includes("signed")) return null;
-  const large = view.score === kSuccessRate || bestEnd(data.headline.find((each) => each.key === view.score)) === "high";
-  return formatNumber(large ? Math.max(...values) : Math.min(...values));
+  const { better } = scoreOf(data, view.score);
+  if (values.length < 2 || better === "neither") return null;
+  return formatNumber(better === "larger" ? Math.max(...values) : Math.min(...values));
 }
 
 function intervalText(row: SuiteScenario, estimator: string, view: View): string | null {
@@ -217,7 +217,7 @@ function scaleBar(values: number[], view: View, unit: string): HTMLElement | nul
 function matrix(data: SuitePayload, view: View, open: Cells["open"], changed: () => void): HTMLElement {
   const estimators = estimatorsOf(data);
   const rows = rowsOf(data, view);
-  const { title, unit } = titleOf(data.headline, view.score);
+  const score = scoreOf(data, view.score);
   if (rows.length === 0) return h("p", { class: "nothing" }, "No scenario matches this choice.");
   const all = numbers(rows, estimators, view);
   const byMatrix = unitScale(all).at;
@@ -228,14 +228,14 @@ function matrix(data: SuitePayload, view: View, open: Cells["open"], changed: ()
     return h("tr", { "data-row": row.name }, h("th", { scope: "row", title: levelText(row) }, ...breakable(row.name)),
       ...estimators.map((each) => cell(cells, each)), anyLink ? links(data, row) : null);
   });
-  const what = view.score === kSuccessRate ? title : `${view.statistic} of ${title}${unit ? ` [${unit}]` : ""}`;
+  const what = view.score === kSuccessRate ? score.title : `${view.statistic} of ${labelOf(score)}`;
   const caption = `${what}${view.score === kSuccessRate ? "" : " over seeds, with 95 % interval where available (too narrow below ten seeds)"}; ` +
     (anyPart(data, rows, estimators, view) ? `${kPartLegend.replace(/\.$/, "; ")}` : "") +
     `${rows.length} scenario${rows.length === 1 ? "" : "s"}`;
   const table = h("table", { class: "matrix", "aria-label": caption },
     head(data, estimators, view, changed), h("tbody", {}, ...body));
   moveByArrows(table);
-  return h("div", {}, h("p", { class: "soft" }, caption), h("div", { class: "table-frame matrix-frame" }, table), scaleBar(all, view, unit));
+  return h("div", {}, h("p", { class: "soft" }, caption), h("div", { class: "table-frame matrix-frame" }, table), scaleBar(all, view, score.unit));
 }
 
 /** The section with the matrix, its choices and the details of the chosen cell. */

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /** The suite page's data, and functions on it. */
-import type { Maybe, Numbers, PagePayload, Picture } from "../contract";
+import type { ListedScore, Maybe, Numbers, PagePayload, Picture } from "../contract";
 import { own } from "../dom";
 import { isNumber } from "../format";
+import { scoreAt } from "../scores";
 
 export interface ScoreSummary {
   median: Maybe;
@@ -212,13 +213,6 @@ export interface Paper {
   pictures?: Picture[];
 }
 
-export interface Headline {
-  key: string;
-  title: string;
-  unit: string;
-  better?: string;
-}
-
 /** benchmark.json: a public data set, scored as its authors score it. */
 export interface Benchmark {
   title: string;
@@ -260,7 +254,9 @@ export interface SuitePayload extends PagePayload {
     /** "key=value" on top of every scenario. */
     settings?: string[];
   };
-  headline: Headline[];
+  score_list: ListedScore[];
+  /** Keys of the scores that lead. */
+  headline: string[];
   runs: Run[];
   roc: Detectors | null;
   consistency?: { cases: ConsistencyCase[] } | null;
@@ -287,16 +283,10 @@ export function styleOf(data: SuitePayload, name: string): number {
   return own<number>(data.styles, name) ?? estimatorsOf(data).indexOf(name);
 }
 
-/** Which end of a score is best. */
-export function bestEnd(score: Headline | undefined): "low" | "high" {
-  return score?.better === "larger" ? "high" : "low";
-}
-
 /** The score that is shown first: that of a benchmark, else the heading-aligned ATE where there is one. */
 export function firstScore(data: SuitePayload): string {
   if (data.benchmark) return data.benchmark.score;
-  const keys = data.headline.map((each) => each.key);
-  return ["ate_yaw_m", "ate_m"].find((key) => keys.includes(key)) ?? keys[0] ?? "";
+  return ["ate_yaw_m", "ate_m"].find((key) => data.headline.includes(key)) ?? data.headline[0] ?? "";
 }
 
 /** Every score of the suite. */
@@ -310,15 +300,22 @@ export function scoreKeysOf(data: SuitePayload): string[] {
   return [...keys];
 }
 
-/** Title and unit of a score; of one that is not a headline score its key. */
-export function titleOf(headline: Headline[], key: string): { title: string; unit: string } {
-  const found = headline.find((each) => each.key === key);
-  if (found) return { title: found.title, unit: found.unit };
-  if (key === kSuccessRate) return { title: "success", unit: "fraction of runs" };
-  const end = key.slice(key.lastIndexOf("_") + 1);
-  const unit = key.startsWith("m_list_percent") || key.startsWith("m_list_signed_percent") ? "%"
-    : key.includes("_rad") ? "rad" : end === "s" ? "s" : key.includes("_m") || end === "m" ? "m" : "";
-  return { title: key, unit };
+/** A score as the page shows it: the title of one that is not a headline score is its key. */
+export function scoreOf(data: SuitePayload, key: string): ListedScore {
+  if (key === kSuccessRate) return { key, title: "success", unit: "fraction of runs", better: "larger" };
+  const listed = scoreAt(data.score_list, key);
+  const title = data.headline.includes(key) ? listed?.title : key;
+  return { key, title: title ?? key, unit: listed?.unit ?? "", better: listed?.better ?? "smaller" };
+}
+
+/** The scores that lead. */
+export function headlineOf(data: SuitePayload): ListedScore[] {
+  return data.headline.map((key) => scoreOf(data, key));
+}
+
+/** "ATE yaw [m]". */
+export function labelOf({ title, unit }: ListedScore): string {
+  return unit ? `${title} [${unit}]` : title;
 }
 
 export function summaryOf(scenario: SuiteScenario, estimator: string): EstimatorSummary | undefined {

@@ -7,7 +7,7 @@ import { h, section } from "../dom";
 import { formatNumber, isNumber, kNone } from "../format";
 import { failureMark, kPartLegend, partText } from "../outcome";
 import { seriesDash } from "../palette";
-import { estimatorsOf, failedOn, firstScore, styleOf, titleOf, type Run, type SuitePayload } from "./model";
+import { estimatorsOf, failedOn, firstScore, headlineOf, labelOf, scoreOf, styleOf, type Run, type SuitePayload } from "./model";
 
 /** Charts shown before the reader asks for all. */
 const kShown = 24;
@@ -135,11 +135,11 @@ export function multiplesSection(data: SuitePayload): HTMLElement | null {
     const scale = unitScale(values);
     const isMarked = (run: Run) => barsOf(run, estimators, score).some((bar) => bar.partial && bar.value !== null);
     const legend = data.runs.some((run) => !run.invalid && isMarked(run)) ? ` ${kPartLegend}` : "";
-    const { title, unit } = titleOf(data.headline, score);
+    const shown = scoreOf(data, score);
     words.textContent =
       values.length === 0
-        ? `No run has a value of ${title}.`
-        : `${title} [${unit}] of each run on one axis from ${formatNumber(scale.low)} to ` +
+        ? `No run has a value of ${shown.title}.`
+        : `${labelOf(shown)} of each run on one axis from ${formatNumber(scale.low)} to ` +
       `${formatNumber(scale.high)}${scale.law}; worst first: most diverged estimators, then the largest value.${legend}`;
     charts.replaceChildren(
       ...(all ? ordered : ordered.slice(0, kShown)).map((run) =>
@@ -160,7 +160,7 @@ export function multiplesSection(data: SuitePayload): HTMLElement | null {
       { class: "toolbar" },
       choice(
         "Score",
-        data.headline.map((each) => ({ value: each.key, label: `${each.title} [${each.unit}]` })),
+        headlineOf(data).map((each) => ({ value: each.key, label: labelOf(each) })),
         score,
         (value) => {
           score = value;

@@ -3,14 +3,16 @@
 import { boxPlot, type BoxGroup } from "../charts/box_plot";
 import { choice } from "../charts/controls";
 import { lineSample } from "../charts/svg";
+import type { ListedScore } from "../contract";
 import { at, h, own, section } from "../dom";
 import { finding, type Finding } from "../findings";
 import { formatNumber, isNumber, kNone } from "../format";
 import { failureCount, kPartLegend, partMark, reasonName } from "../outcome";
+import { bestEnd } from "../scores";
 import { sortableTable, type Column } from "../table";
 import {
-  bestEnd, estimatorsOf, failuresOf, firstScore, isWhole, reasonsOf, runsOf, styleOf, summaryOf, titleOf,
-  type EstimatorSummary, type Headline, type SuitePayload, type SuiteScenario,
+  estimatorsOf, failuresOf, firstScore, headlineOf, isWhole, labelOf, reasonsOf, runsOf, scoreOf, styleOf, summaryOf,
+  type EstimatorSummary, type SuitePayload, type SuiteScenario,
 } from "./model";
 
 interface Row {
@@ -27,7 +29,7 @@ function isLost(row: Row, median: unknown): boolean {
 }
 
 /** Median and worst; marked where no run succeeded, and where they are of parts of the runs. */
-function scoreColumn(data: SuitePayload, scenario: string, score: Headline): Column<Row> {
+function scoreColumn(data: SuitePayload, scenario: string, score: ListedScore): Column<Row> {
   const of = (row: Row) => own<{ median: unknown; worst: unknown }>(row.summary.scores, score.key);
   const whole = (row: Row) => isWhole(data, scenario, row.name);
   return {
@@ -74,7 +76,7 @@ function table(data: SuitePayload, scenario: SuiteScenario): HTMLElement {
       title: "estimator", value: (row) => row.name,
       show: (row) => h("span", { class: "estimator-name", title: row.name }, lineSample(styleOf(data, row.name)), h("bdi", {}, row.name)),
     },
-    ...data.headline.map((score) => scoreColumn(data, scenario.name, score)),
+    ...headlineOf(data).map((score) => scoreColumn(data, scenario.name, score)),
     {
       title: "within 5 %", value: (row) => row.summary.successes,
       hint: "95 % interval of the rate (Wilson)", show: (row) => successText(row) + reasonText(data, scenario.name, row),
@@ -84,7 +86,7 @@ function table(data: SuitePayload, scenario: SuiteScenario): HTMLElement {
       show: (row) => (row.summary.runs === 0 ? kNone : `${row.summary.successes_1_percent ?? "–"} of ${row.summary.runs}`),
     },
   ];
-  const scored = rows.filter((row) => data.headline.some(({ key }) => isNumber(at(row.summary.scores, key, "median"))));
+  const scored = rows.filter((row) => data.headline.some((key) => isNumber(at(row.summary.scores, key, "median"))));
   const legend = [
     "Median over seeds (worst).", scored.some((row) => row.summary.runs > 0 && row.summary.successes === 0) ? "✕: no run succeeded." : "",
     scored.some((row) => !isWhole(data, scenario.name, row.name)) ? kPartLegend : "",
@@ -105,8 +107,8 @@ function boxes(data: SuitePayload, scenario: SuiteScenario, score: string): HTML
       return isNumber(value) ? [{ value: Math.abs(value), failed: at(run.estimators, name, "success") === false, note: `seed ${run.seed}` }] : [];
     }),
   }));
-  const { title, unit } = titleOf(data.headline, score);
-  return boxPlot(groups, { label: `${title} of each estimator over the seeds of ${scenario.name}`, xLabel: `${title}${unit ? ` [${unit}]` : ""}` });
+  const shown = scoreOf(data, score);
+  return boxPlot(groups, { label: `${shown.title} of each estimator over the seeds of ${scenario.name}`, xLabel: labelOf(shown) });
 }
 
 const kVerbs: Record<string, string> = {
@@ -185,7 +187,7 @@ export function seedsSection(data: SuitePayload): HTMLElement | null {
         scenario = scenarios.find((each) => each.name === name) ?? scenario;
         draw();
       }) : null,
-      choice("Box plot of", data.headline.map((each) => ({ value: each.key, label: `${each.title} [${each.unit}]` })), score, (key) => {
+      choice("Box plot of", headlineOf(data).map((each) => ({ value: each.key, label: labelOf(each) })), score, (key) => {
         score = key;
         draw();
       })),

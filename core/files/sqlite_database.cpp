@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "recordings/rosbag2/sqlite_database.hpp"
+#include "core/files/sqlite_database.hpp"
 
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -56,6 +56,8 @@ bool find_all(void* library, SqliteFunctions& functions) {
   symbols.find("sqlite3_step", functions.step);
   symbols.find("sqlite3_reset", functions.reset);
   symbols.find("sqlite3_bind_int64", functions.bind_integer);
+  symbols.find("sqlite3_bind_double", functions.bind_number);
+  symbols.find("sqlite3_bind_null", functions.bind_null);
   symbols.find("sqlite3_bind_text", functions.bind_text);
   symbols.find("sqlite3_bind_blob", functions.bind_blob);
   symbols.find("sqlite3_column_count", functions.column_count);
@@ -95,14 +97,14 @@ tl::unexpected<Error> sqlite_failure(const std::string& file, const SqliteFuncti
   return failure(fmt::format("{}: SQLite: {}", file, functions.message(database)));
 }
 
-/// A URI of the file; `immutable`: read without locks, and without files beside it.
-std::string uri_of(const fs::path& file, bool immutable) {
+/// A URI of the file with that query.
+std::string uri_of(const fs::path& file, std::string_view query) {
   std::string uri = "file:";
   for (const char c : fs::absolute(file).string()) {
     const bool plain = c > ' ' && c < 0x7f && c != '%' && c != '?' && c != '#';
     uri += plain ? std::string(1, c) : fmt::format("%{:02x}", static_cast<unsigned char>(c));
   }
-  return immutable ? uri + "?immutable=1" : uri;
+  return uri.append(query);
 }
 
 /// Whether the file was left in write-ahead mode, where even a reader would create files beside it.
@@ -164,17 +166,20 @@ void SqliteDatabase::harden(std::size_t max_value) const {
 
 Result<SqliteDatabase> SqliteDatabase::open(const fs::path& file, std::size_t max_value) {
   const bool immutable = has_write_ahead_mode(file) && !has_log_beside(file);
-  auto database = open_as(file, uri_of(file, immutable), SQLITE_OPEN_READONLY);
+  // Immutable: read without locks, and without files beside it.
+  auto database =
+      open_as(file, uri_of(file, immutable ? "?immutable=1" : ""), SQLITE_OPEN_READONLY);
   if (database) database->harden(max_value);
   return database;
 }
 
-Result<SqliteDatabase> SqliteDatabase::create(const fs::path& file) {
+Result<SqliteDatabase> SqliteDatabase::create(const fs::path& file, bool with_locks) {
   std::error_code code;
   if (fs::exists(fs::symlink_status(file, code))) {
     return failure(fmt::format("{}: cannot be created: File exists", file.string()));
   }
-  return open_as(file, uri_of(file, false), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  return open_as(file, uri_of(file, with_locks ? "" : "?vfs=unix-none"),
+                 SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
 }
 
 Result<SqliteStatement> SqliteDatabase::prepare(const std::string& sql) const {
@@ -217,6 +222,16 @@ SqliteStatement::~SqliteStatement() { functions_->finalize(statement_); }
 
 SqliteStatement& SqliteStatement::bind(int parameter, std::int64_t value) {
   bound_ |= functions_->bind_integer(statement_, parameter, value);
+  return *this;
+}
+
+SqliteStatement& SqliteStatement::bind_number(int parameter, double value) {
+  bound_ |= functions_->bind_number(statement_, parameter, value);
+  return *this;
+}
+
+SqliteStatement& SqliteStatement::bind_null(int parameter) {
+  bound_ |= functions_->bind_null(statement_, parameter);
   return *this;
 }
 

@@ -9,6 +9,9 @@
 
 namespace aims {
 
+/// A sentence for each estimator of the scenario that its LiDAR does not fit.
+std::vector<std::string> ring_notes(const Scenario& scenario);
+
 /// How the robot of the scenario differs from that of the calibration, one clause each.
 std::vector<std::string> misfits(const RobotCalibration& calibration, const Scenario& scenario);
 

@@ -16,7 +16,7 @@ struct sqlite3_stmt;
 
 namespace aims {
 
-/// The functions of SQLite that recordings use, with the types of sqlite3.h.
+/// The functions of SQLite that are used, with the types of sqlite3.h.
 struct SqliteFunctions {
   int (*open)(const char*, sqlite3**, int, const char*) = nullptr;
   int (*close)(sqlite3*) = nullptr;
@@ -28,6 +28,8 @@ struct SqliteFunctions {
   int (*step)(sqlite3_stmt*) = nullptr;
   int (*reset)(sqlite3_stmt*) = nullptr;
   int (*bind_integer)(sqlite3_stmt*, int, long long) = nullptr;
+  int (*bind_number)(sqlite3_stmt*, int, double) = nullptr;
+  int (*bind_null)(sqlite3_stmt*, int) = nullptr;
   int (*bind_text)(sqlite3_stmt*, int, const char*, int, void (*)(void*)) = nullptr;
   int (*bind_blob)(sqlite3_stmt*, int, const void*, int, void (*)(void*)) = nullptr;
   int (*column_count)(sqlite3_stmt*) = nullptr;
@@ -53,6 +55,8 @@ class SqliteStatement {
   ~SqliteStatement();
 
   SqliteStatement& bind(int parameter, std::int64_t value);
+  SqliteStatement& bind_number(int parameter, double value);
+  SqliteStatement& bind_null(int parameter);
   /// The bytes must stay until the statement has run.
   SqliteStatement& bind(int parameter, std::string_view text);
   SqliteStatement& bind(int parameter, std::span<const std::byte> bytes);
@@ -86,8 +90,9 @@ class SqliteDatabase {
   /// For reading alone. No value may be longer than `max_value` bytes, and nothing that the schema
   /// of a foreign file defines runs: no views, triggers or functions with effects.
   static Result<SqliteDatabase> open(const std::filesystem::path& file, std::size_t max_value);
-  /// A new file; error when it exists.
-  static Result<SqliteDatabase> create(const std::filesystem::path& file);
+  /// A new file; error when it exists. Without locks, which some network disks lack, only where
+  /// nobody else knows it.
+  static Result<SqliteDatabase> create(const std::filesystem::path& file, bool with_locks = true);
   SqliteDatabase(SqliteDatabase&&) noexcept;
   SqliteDatabase& operator=(SqliteDatabase&&) noexcept;
   ~SqliteDatabase();

@@ -16,8 +16,9 @@ bool is_of_positions(Trajectory& poses, const std::string& name, std::vector<std
 void normalize_rounded(Trajectory& poses, const std::string& name, std::vector<std::string>& notes);
 
 /// Removes poses that are not finite, no rotations, stamped not after the one before, or of a body
-/// that a motion capture had lost (or not found yet); notes how many of each.
-void drop_unusable(Trajectory& poses, const std::string& name, std::vector<std::string>& notes);
+/// that a motion capture had lost (or not found yet); notes and yields how many of each.
+std::string drop_unusable(Trajectory& poses, const std::string& name,
+                          std::vector<std::string>& notes);
 
 /// "the positions jump ..." where a truth moves as no robot does, as after a motion capture froze;
 /// else empty.

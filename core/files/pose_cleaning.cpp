@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "recordings/trajectories/pose_cleaning.hpp"
+#include "core/files/pose_cleaning.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,8 +8,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-
-#include "recordings/median.hpp"
 
 namespace aims {
 namespace {
@@ -65,6 +63,13 @@ double speed_to(const Trajectory& poses, std::size_t i) {
   return (poses[i].pose.translation - poses[i - 1].pose.translation).norm() / time;
 }
 
+double median_of(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
 /// Whether the poses before the first that is set are none of a start: to that one is a leap, both
 /// faster than robots are and than the steps behind it.
 bool starts_lost(const Trajectory& poses, std::size_t first_set) {
@@ -76,8 +81,7 @@ bool starts_lost(const Trajectory& poses, std::size_t first_set) {
     if (!is_unset(poses[i].pose) && !is_unset(poses[i - 1].pose))
       speeds.push_back(speed_to(poses, i));
   }
-  const double usual = speeds.empty() ? 0.0 : *upper_median(std::move(speeds));
-  return speed_to(poses, first_set) > std::max(kRobot, kLeap * usual);
+  return speed_to(poses, first_set) > std::max(kRobot, kLeap * median_of(std::move(speeds)));
 }
 
 /// Removes the unset poses between others that are far from the origin; yields how many.
@@ -156,7 +160,8 @@ void sort_shuffled(Trajectory& poses, const std::string& name, std::vector<std::
   notes.push_back(fmt::format("{}: stamps go back {} times: sorted by stamp", name, back));
 }
 
-void drop_unusable(Trajectory& poses, const std::string& name, std::vector<std::string>& notes) {
+std::string drop_unusable(Trajectory& poses, const std::string& name,
+                          std::vector<std::string>& notes) {
   sort_shuffled(poses, name, notes);
   Trajectory usable;
   usable.reserve(poses.size());
@@ -170,9 +175,11 @@ void drop_unusable(Trajectory& poses, const std::string& name, std::vector<std::
     usable.push_back(each);
   }
   counts[kLost] = drop_lost(usable);
+  std::string dropped;
   if (usable.size() < poses.size()) {
-    notes.push_back(fmt::format("{}: {} of {} poses dropped: {}", name,
-                                poses.size() - usable.size(), poses.size(), text_of(counts)));
+    dropped = fmt::format("{} of {} poses dropped: {}", poses.size() - usable.size(), poses.size(),
+                          text_of(counts));
+    notes.push_back(fmt::format("{}: {}", name, dropped));
   }
   if (counts[kRepeated] > usable.size() && usable.size() > 1) {
     notes.push_back(fmt::format(
@@ -181,6 +188,7 @@ void drop_unusable(Trajectory& poses, const std::string& name, std::vector<std::
         name, counts[kRepeated] + usable.size(), usable.size()));
   }
   poses = std::move(usable);
+  return dropped;
 }
 
 std::string unusable_text(const Trajectory& poses) {
