@@ -32,7 +32,7 @@ set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
   "legged-robot localization in degenerate corridors
 Simulates a quadruped, runs estimators on simulated or recorded data, scores
 any system's trajectory against a truth, and draws what happened.")
-# Libraries are found by dpkg-shlibdeps but for SQLite, which is loaded; the fonts are for the pictures.
+# Libraries are found by dpkg-shlibdeps, but for SQLite, which is loaded; fonts are for pictures.
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS "fonts-dejavu-core, libsqlite3-0")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS aims-live)  # of `aims live`, `play` and `watch`

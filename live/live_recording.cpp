@@ -40,11 +40,6 @@ bool is_estimated(const std::string& topic, const std::map<std::string, std::str
          topics.contains(topic.substr(0, name) + "odometry_fast");
 }
 
-/// Whether the topic is one of a record of a live estimate, which is played.
-bool is_mark(const std::string& topic) {
-  return topic == kDecidedTopic || topic == kForgottenTopic;
-}
-
 /// The frames that a message of /tf_static places; empty: it is none.
 std::string placed_frames(const LiveMessage& message) {
   std::string frames;
@@ -84,7 +79,9 @@ class Gathering {
         options_(options),
         settle_(from_seconds(options.live.settle)) {
     if (options.recorder != nullptr) {
-      observer_ = [&options](const BagMessage& message) { options.recorder->add(message); };
+      observer_ = [recorder = options.recorder](const BagMessage& message) {
+        recorder->add(message);
+      };
     }
     if (options.transforms != nullptr) before_ = *options.transforms;
     // To receive latched messages again, where another estimate went before.

@@ -44,8 +44,10 @@ void apply_statistic(std::span<const RunRecord> runs, const std::vector<double>&
 
 /// Whether it is an error or a success of the estimate, which a part of a run has not.
 bool is_accuracy(const std::string& score) {
-  return score.starts_with(kSuccessKey) || (better_of(score) == Better::kSmaller &&
-                                            !is_timing(score) && !score.starts_with("health."));
+  const bool success = score.starts_with(kSuccessKey) ||
+                       score.starts_with(std::string(kOptimizedPrefix) + kSuccessKey);
+  return success || (better_of(score) == Better::kSmaller && !is_timing(score) &&
+                     !score.starts_with("health."));
 }
 
 std::optional<double> value_of(const RunRecord& run, const Expectation& expectation) {

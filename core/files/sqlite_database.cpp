@@ -75,8 +75,8 @@ Result<std::shared_ptr<const SqliteFunctions>> load_sqlite() {
   // It stays loaded: SQLite keeps locks of the process in its own memory.
   void* library = ::dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (library == nullptr) {
-    return failure(std::string("reading and writing .db3 needs SQLite (") + kLibrary +
-                   "; Debian package libsqlite3-0), which is not installed");
+    return failure(std::string("SQLite databases need the library ") + kLibrary +
+                   " (Debian package libsqlite3-0), which is not installed");
   }
   auto functions = std::make_shared<SqliteFunctions>();
   const bool complete = find_all(library, *functions);

@@ -40,7 +40,7 @@ struct SqliteFunctions {
   const char* (*message)(sqlite3*) = nullptr;
 };
 
-/// The system's SQLite, loaded when the first database is opened: programs that read no database
+/// The system's SQLite, loaded when the first database is opened: programs that open no database
 /// need not have it. Error when it is not installed.
 Result<std::shared_ptr<const SqliteFunctions>> load_sqlite();
 

@@ -152,7 +152,7 @@ Result<void> announce(MessageSource& recording, PacedSink& sink,
   for (const BagConnection& each : recording.connections()) {
     if (!topics.empty() && std::ranges::find(topics, each.topic) == topics.end()) continue;
     // What marks the record of a live estimate: nobody would subscribe.
-    if (each.topic == kDecidedTopic || each.topic == kForgottenTopic) continue;
+    if (is_mark(each.topic)) continue;
     const auto type = playable_type(each);
     if (!type) {
       warn(fmt::format("not played: {}: {}", each.topic, type.error().message));

@@ -143,11 +143,12 @@ dds_entity_t DdsTransport::make_topic(const std::string& topic, const std::strin
 }
 
 std::unique_ptr<DdsTransport::Subscription> DdsTransport::open(BagConnection connection,
-                                                               bool reliable) {
+                                                               bool reliable, LastSamples last) {
   const Qos qos = quality({reliable, connection.latching}, 0.0);
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
   std::unique_ptr<Subscription> opened(
       new Subscription{*this, std::make_shared<BagConnection>(std::move(connection)), reliable});
+  opened->last = std::move(last);
   const Listener listener(dds_create_listener(opened.get()), dds_delete_listener);
   dds_lset_data_available(listener.get(), [](dds_entity_t reader, void* of) {
     auto& from = *static_cast<Subscription*>(of);
@@ -181,8 +182,10 @@ void DdsTransport::reopen_refused() {
     if (!subscription->refused) continue;
     BagConnection connection = *subscription->connection;
     connection.latching = false;
+    dds_delete(std::exchange(subscription->reader, 0));  // ends its callbacks
+    auto last = std::move(subscription->last);
     subscription.reset();  // or both would hear some publishers
-    subscription = open(std::move(connection), false);
+    subscription = open(std::move(connection), false, std::move(last));
   }
 }
 

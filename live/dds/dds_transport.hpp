@@ -59,6 +59,8 @@ class DdsTransport final : public Transport {
   std::size_t lost() const override { return lost_; }
 
   using Entity = std::int32_t;  ///< of DDS
+  /// Number of the last sample of each writer.
+  using LastSamples = std::map<std::array<std::byte, 16>, std::uint64_t>;
   /// One topic of which this node receives messages.
   struct Subscription {
     ~Subscription();
@@ -69,12 +71,12 @@ class DdsTransport final : public Transport {
     Entity topic = 0;
     Entity reader = 0;
     std::atomic<bool> refused = false;  ///< a publisher offers less than was asked for
-    /// Number of the last sample of each writer.
-    std::map<std::array<std::byte, 16>, std::uint64_t> last = {};
+    LastSamples last = {};
   };
 
   explicit DdsTransport(DdsOptions options) : options_(std::move(options)) {}
-  std::unique_ptr<Subscription> open(BagConnection connection, bool reliable);
+  std::unique_ptr<Subscription> open(BagConnection connection, bool reliable,
+                                     LastSamples last = {});
   Time arrival_of(Time sent, bool latching);
   void take_samples(Subscription& subscription, Entity reader);
   void count_lost(Subscription& subscription, const SampleOrigin& origin);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "recordings/bag/wrapped_source.hpp"
@@ -16,6 +17,11 @@ inline constexpr const char* kDecidedTopic = "/aims/decided";
 
 /// Topic of the message behind what a live estimate had heard, but no longer had when it decided.
 inline constexpr const char* kForgottenTopic = "/aims/forgotten";
+
+/// Whether the topic is one of these.
+inline bool is_mark(std::string_view topic) {
+  return topic == kDecidedTopic || topic == kForgottenTopic;
+}
 
 /// Whether a live estimate made the recording.
 bool is_of_live_estimate(const MessageSource& recording);

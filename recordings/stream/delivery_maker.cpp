@@ -38,12 +38,24 @@ void DeliveryMaker::deliver(Role role, Measurement measurement, Time stamp,
 }
 
 void DeliveryMaker::deliver(std::optional<LegOdometrySample> sample, std::vector<Delivery>& out) {
+  for (; left_out_ < legs_left_out(); ++left_out_) {
+    missing_[static_cast<std::size_t>(Role::kLegs)].add_unusable();
+  }
   if (!sample) return;
   const bool finite = sample->linear_velocity.allFinite() && sample->angular_velocity.allFinite() &&
                       sample->T_odom_base.translation.allFinite();
   if (!finite) ++counts["legs_not_finite"];
   const Time stamp = sample->stamp;
   deliver(Role::kLegs, *std::move(sample), stamp, out);
+}
+
+/// Samples of legs that came without contacts, gyro or rates.
+int DeliveryMaker::legs_left_out() const {
+  int all = 0;
+  for (const char* what : {"legs_without_contacts", "legs_incomplete"}) {
+    if (const auto found = counts.find(what); found != counts.end()) all += found->second;
+  }
+  return all;
 }
 
 void DeliveryMaker::malformed(Role role) {

@@ -64,6 +64,7 @@ class DeliveryMaker {
   void deliver(std::optional<LegOdometrySample> sample, std::vector<Delivery>& out);
   Time stamp_of(Role role, Time stamp, double delay) const;
   Duration period_of(Role role) const;
+  int legs_left_out() const;
   bool legs_by_joints() const { return plan.setup.topics.leg_odometry.empty(); }
   void warn_of_missing(Role role);
 
@@ -77,6 +78,7 @@ class DeliveryMaker {
   std::array<std::optional<Time>, kRoleCount> last_stamps_;
   std::array<std::string, kRoleCount> frames_;  ///< of the first messages
   std::array<MissingMessages, kRoleCount> missing_;
+  int left_out_ = 0;  ///< samples of legs, as counted in `missing_`
   std::optional<Time> last_true_stamp_;
 };
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
+#include <utility>
+
 #include "core/time.hpp"
 
 namespace aims {
@@ -16,13 +19,16 @@ class LateMessages {
   /// `late`: how long after its stamp and the usual latency a message was recorded. Whether the
   /// counts may have changed.
   bool add(Duration late, Time recorded) {
+    const Time due = recorded - late;
+    const bool back = due + kSecond < std::exchange(last_due_, due);
     if (count_ == 0 && late < kLate) return false;
     if (count_ == 0) {
       first_late_ = late;
       first_recorded_ = recorded;
+      in_order_ = !back;  // else times are wrong: a recorder reads in order
     }
     const Duration waited = recorded - first_recorded_;
-    caught_up_ = waited >= 0 && first_late_ - late > waited;
+    caught_up_ = in_order_ && waited >= 0 && first_late_ - late > waited;
     if (late >= kLate) {
       ++count_;
     } else {
@@ -40,8 +46,10 @@ class LateMessages {
   int count_ = 0;
   Duration first_late_ = 0;
   Time first_recorded_ = 0;
+  bool in_order_ = true;
   bool caught_up_ = false;
-  int read_late_ = 0, by_clock_ = 0;  ///< of all before
+  int read_late_ = 0, by_clock_ = 0;                  ///< of all before
+  Time last_due_ = std::numeric_limits<Time>::min();  ///< stamp and usual latency of the last one
 };
 
 }  // namespace aims

@@ -46,7 +46,7 @@ std::optional<SeriesLeap> leap_of(const std::vector<Duration>& series, const Lea
   for (std::size_t i = 0; i < series.size(); ++i) {
     strays += std::abs(series[i] - (i < at ? before : behind)) > near ? 1 : 0;
   }
-  if (std::abs(step) < rule.least || 10 * strays > series.size()) return std::nullopt;
+  if (std::abs(step) < rule.least || 10 * strays >= series.size()) return std::nullopt;
   return SeriesLeap{at, step};
 }
 

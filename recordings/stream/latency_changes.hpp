@@ -20,7 +20,7 @@ struct SeriesGrowth {
 };
 SeriesGrowth growth_of(const std::vector<Duration>& series);
 
-/// A leap of a series, of which nine values of ten stay near the median of their side.
+/// A leap of a series, of which more than nine values of ten stay near the median of their side.
 struct SeriesLeap {
   std::size_t at = 0;  ///< the first value behind it
   Duration step = 0;   ///< from median to median

@@ -10,7 +10,7 @@
 
 namespace aims {
 
-/// Counts the messages of a topic that did not come, by gaps of any length in its stamps.
+/// Counts the messages of a topic that did not come, by gaps of up to an hour in its stamps.
 class MissingMessages {
  public:
   static constexpr Duration kLong = 10 * kSecond;  ///< of gaps that are named
@@ -21,8 +21,8 @@ class MissingMessages {
     const bool first = received_++ == 0;
     stamp_ = stamp;
     recorded_ = recorded;
-    // Where stamps alone go on, it is no loss.
-    if (first || period <= 0 || step <= 0 || 2 * waited < step) return;
+    // Where stamps alone go on, it is no loss; after hours a clock was set, or all began anew.
+    if (first || period <= 0 || step <= 0 || step > kLongest || 2 * waited < step) return;
     const double periods = static_cast<double>(step) / static_cast<double>(period);
     const double gap = std::max(0.0, std::round(periods) - 1.0);
     const double came = std::min(static_cast<double>(unusable), gap);
@@ -44,13 +44,16 @@ class MissingMessages {
     return std::llround(std::max(0.0, std::min(in_gaps_, periods_ - static_cast<double>(steps_))));
   }
   /// Of these, in gaps longer than `kLong`.
-  std::int64_t in_long_gaps() const { return std::llround(in_long_gaps_); }
+  std::int64_t in_long_gaps() const {
+    return std::min<std::int64_t>(count(), std::llround(in_long_gaps_));
+  }
   std::int64_t received() const { return received_; }
   std::int64_t gaps() const { return gaps_; }
   Duration longest() const { return longest_; }
 
  private:
   static constexpr double kGap = 1.5;  ///< periods
+  static constexpr Duration kLongest = 3600 * kSecond;
 
   Time stamp_ = 0, recorded_ = 0;
   std::int64_t received_ = 0, unusable_ = 0, steps_ = 0, gaps_ = 0;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/scoring/json_text.hpp"
+#include "bench/scoring/score_list.hpp"
 #include "bench/studies/consistency_study.hpp"
 #include "core/series_style.hpp"
 

@@ -656,7 +656,6 @@ class FastDds(unittest.TestCase):
         self.assertGreater(max(speeds), 0.2, "m/s: it walks")
         self.assertLess(max(speeds), 2.0)
 
-
     def clouds_arrive(self, reliability):
         """Numbers of clouds that it sent, that were recorded and that were lost on the way."""
         name = "clouds-" + reliability

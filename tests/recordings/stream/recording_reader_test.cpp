@@ -849,7 +849,7 @@ TEST_F(RecordingReaderTest, ARecorderThatWasStoppedIsNoClockThatWasSet) {
   constexpr Time kGoesOn = kLeap + 9 * kSecond;
   const auto stopped = [](bool, Time& stamp, Time& recorded) {
     if (recorded < kLeap || recorded >= kGoesOn) return;
-    recorded = kGoesOn + (stamp - kLeap) / 1000;
+    recorded = kGoesOn + (stamp - kLeap) / 10'000;
   };
   const Recording read = read_with_times(bag(), stopped, 900);
   EXPECT_FALSE(read.counts.contains("recorded_long_after_their_stamp"));

@@ -10,7 +10,8 @@ export function scoreAt(list: ListedScore[], key: string): ListedScore | undefin
   return list.find((each) => each.key.split(".").every((part, i) => part === "*" || part === parts[i]));
 }
 
-/** Which end of a score is best. */
-export function bestEnd(score: ListedScore | undefined): "low" | "high" {
+/** Which end of a score is best; none of one of which neither is. */
+export function bestEnd(score: ListedScore | undefined): "low" | "high" | undefined {
+  if (score?.better === "neither") return undefined;
   return score?.better === "larger" ? "high" : "low";
 }
