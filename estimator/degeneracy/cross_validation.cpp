@@ -128,10 +128,10 @@ void CrossValidatedInformation::update_fraction(double free_tilt) {
   uneven_walls_ = false;
   for (int i = 0; i < 3; ++i) {
     const double f = solver.eigenvalues()(i);
-    const double per_squared_tilt = sum_of_weights_ * V.col(i).squaredNorm();
-    const double tilt = free_tilt * free_tilt * per_squared_tilt;
+    const double tilt = free_tilt * free_tilt * sum_of_weights_ * V.col(i).squaredNorm();
+    const double largest = kFreeTilt * kFreeTilt * sum_of_weights_ * V.col(i).squaredNorm();
     fraction(i) = without(std::max(at_start, tilt), f);
-    if (fraction(i) > 0.0 && f < kFreeTilt * kFreeTilt * per_squared_tilt) uneven_walls_ = true;
+    if (fraction(i) > 0.0 && f < largest) uneven_walls_ = true;
     // What the tilt takes is left out to be safe, and the vector still asks for it; the pattern of
     // the start is no displacement.
     if (fraction(i) > 0.0) step(i) = without(tilt, f) / std::min(f, 1.0);
