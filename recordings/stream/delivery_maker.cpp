@@ -33,7 +33,8 @@ void DeliveryMaker::deliver(Role role, Measurement measurement, Time stamp,
   auto& last = last_stamps_[static_cast<std::size_t>(role)];
   if (last && stamp <= *last) ++counts[std::string(name_of(role)) + "_stamp_not_increasing"];
   last = stamp;  // so that one stamp far ahead counts once
-  missing_[static_cast<std::size_t>(role)].add(stamp, now_.recorded, period_of(role));
+  missing_[static_cast<std::size_t>(role)].add(stamp, now_.usual.value_or(now_.recorded),
+                                               period_of(role));
   out.push_back({now_.recorded + plan.arrival_shift, std::move(measurement)});
 }
 

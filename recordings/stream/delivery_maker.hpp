@@ -20,10 +20,11 @@ namespace aims {
 
 /// When a message was recorded and taken.
 struct MessageTimes {
-  Time recorded = 0;              ///< as corrected, where the recorder's clock leapt
-  std::optional<Time> sampled;    ///< where its record time is that of a batch
-  std::optional<Duration> leapt;  ///< by which its stamp is wrong
-  Duration position = 0;          ///< since the start of the recording
+  Time recorded = 0;                         ///< as corrected, where the recorder's clock leapt
+  std::optional<Time> sampled;               ///< where its record time is that of a batch
+  std::optional<Duration> leapt;             ///< by which its stamp is wrong
+  Duration position = 0;                     ///< since the start of the recording
+  std::optional<Time> usual = std::nullopt;  ///< when it would have been recorded, if it was late
 
   Time taken() const { return sampled.value_or(recorded); }  ///< in place of a stamp
 };

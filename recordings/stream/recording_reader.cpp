@@ -86,7 +86,9 @@ struct RecordingReader::Impl {
   Time until = 0;        ///< record time up to which messages have been delivered
   Time record_time = 0;  ///< of the last message
   Duration position = 0;
-  std::optional<Duration> leapt;  ///< by which the stamp of the current message is wrong
+  // Of the current message:
+  std::optional<Duration> leapt;  ///< by which its stamp is wrong
+  std::optional<Time> usual;      ///< when it would have been recorded, if it was late
 };
 
 Result<void> RecordingReader::Impl::fetch() {
@@ -157,7 +159,8 @@ Time RecordingReader::Impl::arrival(const BagMessage& message, const Channel& ch
   if (!late) return message.record_time;
   if (late_messages[*role].add(*late, message.record_time)) count_late();
   if (*late < LateMessages::kLate) return message.record_time;
-  return std::max(record_time, message.record_time - *late);
+  usual = message.record_time - *late;
+  return std::max(record_time, *usual);
 }
 
 void RecordingReader::Impl::count_late() {
@@ -202,6 +205,7 @@ void RecordingReader::Impl::release(Time due, std::vector<Delivery>& out) {
 void RecordingReader::Impl::receive(const BagMessage& given, std::vector<Delivery>& out) {
   BagMessage message = given;
   leapt.reset();
+  usual.reset();
   const Channel* channel = channels.find(message);
   if (channel == nullptr) return;
   const auto view = channel->decoder.decode(message.data);
@@ -227,7 +231,7 @@ void RecordingReader::Impl::receive(const BagMessage& given, std::vector<Deliver
     if (channel->serves[i]) maker.malformed(static_cast<Role>(i));
   }
   if (!readable || hold(message, *channel, *view)) return;
-  maker.take(*channel, *view, {record_time, message.sampled, leapt, position}, out);
+  maker.take(*channel, *view, {record_time, message.sampled, leapt, position, usual}, out);
 }
 
 /// What the whole recording tells.

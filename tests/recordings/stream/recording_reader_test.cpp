@@ -858,6 +858,23 @@ TEST_F(RecordingReaderTest, ARecorderThatWasStoppedIsNoClockThatWasSet) {
   EXPECT_EQ(test::imu_of(read.deliveries).size(), 900U);
 }
 
+TEST_F(RecordingReaderTest, AGapBehindALateMessageIsCounted) {
+  // In 60 s, the LiDAR is silent for 20 s; the last cloud before it is written when it ends.
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  robot.add_imu(kStart, 3000);
+  for (int k = 0; k < 600; ++k) {
+    if (k >= 300 && k < 500) continue;
+    const Time stamp = kStart + k * 100 * kMillisecond;
+    const Time late = k == 299 ? 20 * kSecond : 0;
+    robot.add_cloud(RawCloud::of(stamp, {{1, 2, 0, 0}, {2, 1, 1, 0.09F}}),
+                    stamp + late + 101 * kMillisecond);
+  }
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  EXPECT_EQ(read.counts.at("lidar_messages_missing"), 200);
+}
+
 TEST_F(RecordingReaderTest, OneMessageOfTheFutureMovesNoArrival) {
   const Recording read = read_with_times(bag(), [](bool cloud, Time& stamp, Time& recorded) {
     if (!cloud && stamp == kLeap) recorded += 1'000'000 * kSecond;
