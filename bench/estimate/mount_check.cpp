@@ -10,8 +10,8 @@
 
 #include "bench/estimate/stream.hpp"
 #include "core/lie.hpp"
+#include "core/median.hpp"
 #include "core/text.hpp"
-#include "recordings/median.hpp"
 
 namespace aims {
 namespace {

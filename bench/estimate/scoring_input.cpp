@@ -16,8 +16,8 @@
 #include "core/files/pose_cleaning.hpp"
 #include "core/files/text_file.hpp"
 #include "core/files/waypoint_times.hpp"
+#include "core/median.hpp"
 #include "core/text.hpp"
-#include "recordings/median.hpp"
 #include "recordings/topics/recording_topics.hpp"
 #include "recordings/trajectories/trajectory_file.hpp"
 

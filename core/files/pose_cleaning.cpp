@@ -8,6 +8,9 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
+
+#include "core/median.hpp"
 
 namespace aims {
 namespace {
@@ -63,13 +66,6 @@ double speed_to(const Trajectory& poses, std::size_t i) {
   return (poses[i].pose.translation - poses[i - 1].pose.translation).norm() / time;
 }
 
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
-
 /// Whether the poses before the first that is set are none of a start: to that one is a leap, both
 /// faster than robots are and than the steps behind it.
 bool starts_lost(const Trajectory& poses, std::size_t first_set) {
@@ -81,7 +77,8 @@ bool starts_lost(const Trajectory& poses, std::size_t first_set) {
     if (!is_unset(poses[i].pose) && !is_unset(poses[i - 1].pose))
       speeds.push_back(speed_to(poses, i));
   }
-  return speed_to(poses, first_set) > std::max(kRobot, kLeap * median_of(std::move(speeds)));
+  return speed_to(poses, first_set) >
+         std::max(kRobot, kLeap * upper_median(std::move(speeds)).value_or(0.0));
 }
 
 /// Removes the unset poses between others that are far from the origin; yields how many.

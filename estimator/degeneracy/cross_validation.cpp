@@ -149,7 +149,7 @@ void CrossValidatedInformation::update_fraction(double free_tilt) {
 }
 
 PoseInformation CrossValidatedInformation::applied_to(const HalvesInformation& scan) const {
-  if (held_by_uneven_walls() && !leaves_direction_free()) return {scan.within, scan.within_vector};
+  if (held_by_uneven_walls()) return {scan.within, scan.within_vector};
   const Eigen::Matrix3d S = position_information(scan.within);
   const Eigen::Vector3d rotation = scan.across_vector.head<3>();
   const Eigen::Vector3d position =

@@ -80,11 +80,12 @@ class CrossValidatedInformation {
   /// Projection of the position onto the directions that scans do not leave free.
   const Eigen::Matrix3d& constrained() const { return constrained_; }
 
-  /// Whether along some direction only planes that face it by less than `kFreeTilt` count.
-  bool held_by_uneven_walls() const { return uneven_walls_; }
-
   /// Whether scans leave a direction of the position free.
   bool leaves_direction_free() const { return weakest_ <= 0.0; }
+
+  /// Whether they leave none free, but one is held only by planes that face it by less than
+  /// `kFreeTilt`.
+  bool held_by_uneven_walls() const { return uneven_walls_ && !leaves_direction_free(); }
 
  private:
   double tilt_of_noise(double square, double gain);
@@ -110,7 +111,7 @@ class CrossValidatedInformation {
   Eigen::Array3d real_ = Eigen::Array3d::Zero();       ///< X over W on these axes
   Eigen::Array3d root_ = Eigen::Array3d::Zero();       ///< of A over W
   Eigen::Array3d step_gain_ = Eigen::Array3d::Zero();  ///< A over the slope X of the vector
-  Eigen::Matrix3d within_ = Eigen::Matrix3d::Zero();       ///< of the position, odometry axes
+  Eigen::Matrix3d within_ = Eigen::Matrix3d::Zero();   ///< of the position, odometry axes
   Eigen::Matrix3d across_ = Eigen::Matrix3d::Zero();
 };
 

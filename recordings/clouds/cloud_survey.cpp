@@ -10,8 +10,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/median.hpp"
 #include "recordings/clouds/scan_period.hpp"
-#include "recordings/median.hpp"
 
 namespace aims {
 namespace {

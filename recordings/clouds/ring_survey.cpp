@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "core/angle.hpp"
-#include "recordings/median.hpp"
+#include "core/median.hpp"
 
 namespace aims {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "recordings/median.hpp"
+#include "core/median.hpp"
 
 namespace aims {
 namespace {

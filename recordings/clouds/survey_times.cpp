@@ -7,9 +7,9 @@
 #include <cmath>
 #include <utility>
 
+#include "core/median.hpp"
 #include "recordings/clouds/cloud_survey.hpp"
 #include "recordings/clouds/scan_period.hpp"
-#include "recordings/median.hpp"
 
 namespace aims {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "recordings/median.hpp"
+#include "core/median.hpp"
 
 namespace aims {
 namespace {

@@ -6,8 +6,8 @@
 #include <complex>
 #include <numbers>
 
+#include "core/median.hpp"
 #include "recordings/clouds/scan_period.hpp"
-#include "recordings/median.hpp"
 
 namespace aims {
 namespace {

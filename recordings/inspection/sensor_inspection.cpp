@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "core/median.hpp"
 #include "recordings/clouds/point_table.hpp"
-#include "recordings/median.hpp"
 #include "recordings/messages/message_values.hpp"
 #include "recordings/messages/point_layout.hpp"
 #include "recordings/stream/gravity_unit.hpp"

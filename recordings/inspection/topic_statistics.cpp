@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "recordings/median.hpp"
+#include "core/median.hpp"
 #include "recordings/stream/record_clock.hpp"
 
 namespace aims {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "recordings/median.hpp"
+#include "core/median.hpp"
 
 namespace aims {
 namespace {

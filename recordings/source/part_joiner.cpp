@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "recordings/median.hpp"
+#include "core/median.hpp"
 
 namespace aims {
 namespace {

@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "recordings/median.hpp"
+#include "core/median.hpp"
 #include "recordings/source/message_stamps.hpp"
 
 namespace aims {

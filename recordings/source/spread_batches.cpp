@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
+#include "core/median.hpp"
 #include "recordings/bag/wrapped_source.hpp"
-#include "recordings/median.hpp"
 #include "recordings/messages/inertial_topics.hpp"
 #include "recordings/messages/message_decoder.hpp"
 #include "recordings/messages/message_values.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "recordings/median.hpp"
+#include "core/median.hpp"
 
 namespace aims {
 namespace {

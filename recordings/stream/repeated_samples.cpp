@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "recordings/median.hpp"
+#include "core/median.hpp"
 #include "recordings/messages/message_values.hpp"
 
 namespace aims {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "recordings/median.hpp"
+#include "core/median.hpp"
 #include "recordings/stream/gravity_unit.hpp"
 #include "recordings/stream/motion_window.hpp"
 #include "recordings/stream/recording_survey.hpp"

@@ -7,7 +7,7 @@
 #include <ranges>
 #include <utility>
 
-#include "recordings/median.hpp"
+#include "core/median.hpp"
 #include "recordings/stream/latency_changes.hpp"
 #include "recordings/stream/recording_survey.hpp"
 #include "recordings/stream/survey_latencies.hpp"
