@@ -40,7 +40,7 @@ struct PlayOptions {
   std::vector<std::string> files;
   double rate = 1.0;                ///< of the recording's pace
   std::vector<std::string> topics;  ///< empty: all
-  bool wait = false;  ///< starts once each topic has a subscriber; else after a second
+  std::size_t wait = 0;  ///< for so many subscribers of each topic before it starts; 0: a second
 };
 
 /// Sends each message when it is due; the time of sending is the record time.
@@ -94,10 +94,10 @@ class PacedSink final : public MessageSink {
     return {};
   }
 
-  /// A topic without a subscriber; empty: each has one.
-  std::string unheard() const {
+  /// A topic with fewer subscribers; empty: each has so many.
+  std::string unheard(std::size_t subscribers) const {
     for (const auto& [topic, publisher] : publishers_) {
-      if (!transport_.heard(publisher)) return topic.first;
+      if (transport_.subscribers(publisher) < subscribers) return topic.first;
     }
     return {};
   }
@@ -166,16 +166,17 @@ Result<void> announce(MessageSource& recording, PacedSink& sink,
   return {};
 }
 
-/// Until each topic has a subscriber, else for `kDelay`.
-void wait_to_start(const DdsTransport& transport, const PacedSink& sink, bool for_subscribers) {
+/// Until each topic has so many subscribers, for none `kDelay`.
+void wait_to_start(const DdsTransport& transport, const PacedSink& sink, std::size_t subscribers) {
   const Stopwatch since_start;
   Stopwatch since_report;
   while (transport.running()) {
-    const std::string unheard = for_subscribers ? sink.unheard() : "";
-    if (unheard.empty() && (for_subscribers || since_start.seconds() > kDelay)) return;
+    const std::string unheard = sink.unheard(subscribers);
+    if (unheard.empty() && (subscribers > 0 || since_start.seconds() > kDelay)) return;
     if (since_report.seconds() > kReportPeriod) {
       since_report = Stopwatch();
-      fmt::print(stderr, "aims_play: waiting: no subscriber of {} yet\n", unheard);
+      fmt::print(stderr, "aims_play: waiting: {} has not {} yet\n", unheard,
+                 subscribers == 1 ? "a subscriber" : fmt::format("{} subscribers", subscribers));
     }
     std::this_thread::sleep_for(kPatience);
   }
@@ -219,7 +220,8 @@ int main(int argc, char** argv) {
   add_domain_option(app, dds);
   app.add_option("--topics", options.topics, "Only these, e.g. /imu/data,/lidar/points")
       ->delimiter(',');
-  app.add_flag("--wait", options.wait,
-               "Start once each topic has a subscriber; else after a second");
+  app.add_flag("--wait{1}", options.wait,
+               "Start once each topic has a subscriber, with --wait=2 two; else after a second")
+      ->check(CLI::Range(1, 1000));
   return run_program(app, {argv + 1, argv + argc}, [&] { return play(options, dds); });
 }

@@ -300,10 +300,10 @@ bool DdsTransport::publish_at(std::size_t publisher, Time time, std::span<const 
   return writer > 0 && dds_write_ts(writer, &data, time) == DDS_RETCODE_OK;
 }
 
-bool DdsTransport::heard(std::size_t publisher) const {
+std::size_t DdsTransport::subscribers(std::size_t publisher) const {
   dds_publication_matched_status_t status = {};
   dds_get_publication_matched_status(writers_.at(publisher), &status);
-  return status.current_count > 0;
+  return status.current_count;
 }
 
 std::size_t DdsTransport::wait_for_subscribers(double seconds) const {

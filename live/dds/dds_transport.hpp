@@ -46,9 +46,11 @@ class DdsTransport final : public Transport {
   std::optional<LiveMessage> wait(double seconds) override;
   std::map<std::string, std::size_t> take_doubled() override { return discovery_.take_doubled(); }
   std::size_t advertise(const std::string& topic, const MessageType& type, bool latching) override;
-  bool heard(std::size_t publisher) const override;
+  bool heard(std::size_t publisher) const override { return subscribers(publisher) > 0; }
   void publish(std::size_t publisher, std::span<const std::byte> data) override;
 
+  /// Subscribers that have found it.
+  std::size_t subscribers(std::size_t publisher) const;
   /// As `publish`, with that time of sending, >= 0. False when the subscribers are too slow,
   /// or for what is no message of CDR.
   bool publish_at(std::size_t publisher, Time time, std::span<const std::byte> data);

@@ -82,7 +82,7 @@ class Live:
     sending. Of clouds that waited, none is dropped: the recording is shorter than their patience."""
 
     def __init__(self, recording, name, live=(), play=(), pace=8, max_wait=20, play_domain=None, limit=(),
-                 settle="2"):
+                 settle="2", wait="--wait"):
         for old in (name, name + ".mcap", *glob.glob(name + "-[0-9].mcap")):
             shutil.rmtree(old, ignore_errors=True)
             if os.path.exists(old):
@@ -94,7 +94,7 @@ class Live:
                                           *(["--source_time"] if pace > 1 else []), *live], stdout=log, stderr=log)
         self.play_command = [AIMS, "play", recording, "--domain", play_domain or self.domain, "--rate", str(pace),
                              *play]
-        self.start_play("--wait")
+        self.start_play(wait)
 
     def start_play(self, *wait):
         self.play = subprocess.Popen([*self.play_command, *wait], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
@@ -290,7 +290,7 @@ class LiveEstimate(unittest.TestCase):
         self.assertNotIn("left out (as_live)", json.dumps(again["notes"]))
 
     def test_beside_another_estimate_the_times_are_those_of_the_recording(self):
-        live = Live("walk.mcap", "beside", pace=3)
+        live = Live("walk.mcap", "beside", pace=3, wait="--wait=2")
         with open("other.log", "w", encoding="utf-8") as log:
             other = subprocess.Popen([AIMS, "live", "--domain", live.domain, "--node", "other", "--tf", *TOPICS],
                                      stdout=log, stderr=log)
