@@ -3,6 +3,8 @@
 
 #include <dds/dds.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -14,8 +16,34 @@
 namespace aims {
 namespace {
 
-/// A domain of its own for each test process, away from those of robots (0 to 99).
-std::uint32_t own_domain() { return 100 + static_cast<std::uint32_t>(getpid()) % 100; }
+/// Whether nobody on this machine has the port; one of TCP is held as long as the process lives.
+bool take_port(std::uint32_t port, int type) {
+  const int held = socket(AF_INET, type | SOCK_CLOEXEC, 0);
+  sockaddr_in address = {};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  const bool free = bind(held, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
+  if (!free || type == SOCK_DGRAM) close(held);
+  return free;
+}
+
+/// A domain of its own for each test process, away from those of robots (0 to 99): it holds a port
+/// of TCP, which DDS does not use, and nobody has those of UDP that its participants would have.
+std::uint32_t own_domain() {
+  static const std::uint32_t domain = [] {
+    for (std::uint32_t i = 0; i < 100; ++i) {
+      const std::uint32_t found = 100 + (static_cast<std::uint32_t>(getpid()) + i) % 100;
+      const std::uint32_t port = 7400 + 250 * found;
+      bool free = take_port(port, SOCK_STREAM);
+      for (std::uint32_t p = 10; free && p < 30; ++p) free = take_port(port + p, SOCK_DGRAM);
+      if (free) return found;
+    }
+    ADD_FAILURE() << "no free domain of DDS";
+    return 100U;
+  }();
+  return domain;
+}
 
 /// Random bytes behind the header of CDR.
 std::vector<std::byte> payload(std::size_t size, unsigned seed) {
@@ -43,9 +71,9 @@ class DdsTransportTest : public testing::Test {
     return std::move(*made);
   }
 
-  /// Calls `done` until it is true, for ten seconds at most.
+  /// Calls `done` until it is true, for a minute at most.
   static bool eventually(const std::function<bool()>& done) {
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < 6000; ++i) {
       if (done()) return true;
       usleep(10'000);
     }
@@ -59,7 +87,7 @@ class DdsTransportTest : public testing::Test {
     receiver_->subscribe(topic, type);
   }
 
-  std::optional<LiveMessage> received() { return receiver_->wait(10.0); }
+  std::optional<LiveMessage> received() { return receiver_->wait(60.0); }
 
   std::unique_ptr<DdsTransport> sender_;
   std::unique_ptr<DdsTransport> receiver_;

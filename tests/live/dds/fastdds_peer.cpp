@@ -4,10 +4,11 @@
 //     passes samples on from one domain to another, under the names of DDS, until standard input
 //     ends. DURABILITY: volatile or transient.
 //   fastdds_peer odometry DOMAIN TOPIC
-//     prints each nav_msgs/Odometry in one line, read by Fast-CDR.
+//     prints "matched" once it is sent, then each nav_msgs/Odometry in one line, read by Fast-CDR.
 //   fastdds_peer clouds DOMAIN TOPIC COUNT RETURNS RELIABILITY
-//     sends so many sensor_msgs/PointCloud2 at 10 Hz, once somebody listens. RELIABILITY: reliable
-//     or best_effort.
+//     sends so many sensor_msgs/PointCloud2 at 10 Hz, once somebody listens, then five small ones,
+//     by whose numbers it is known how many of the large ones were lost. RELIABILITY: reliable (it
+//     waits until all are acknowledged) or best_effort.
 #include <fastcdr/Cdr.h>
 #include <fastcdr/FastBuffer.h>
 
@@ -111,6 +112,12 @@ using Receiver = std::function<void(const Bytes&, const fast::SampleInfo&)>;
 class Listener : public fast::DataReaderListener {
  public:
   explicit Listener(Receiver receiver) : receiver_(std::move(receiver)) {}
+  void on_subscription_matched(fast::DataReader*,
+                               const fast::SubscriptionMatchedStatus& status) override {
+    if (status.current_count_change <= 0) return;
+    std::puts("matched");
+    std::fflush(stdout);
+  }
   void on_data_available(fast::DataReader* reader) override {
     Bytes bytes;
     fast::SampleInfo info;
@@ -218,12 +225,14 @@ void send_clouds(fast::DomainParticipant* node, const std::string& name, int cou
   wait_for_subscriber(writer);
   // It may find this publisher later than it is found.
   std::this_thread::sleep_for(std::chrono::seconds(1));
+  constexpr int kSmall = 5;
   int sent = 0;  // those are refused that exceed what writer and type declare
-  for (int i = 0; i < count; ++i) {
-    Bytes bytes = cloud(returns, (1000 + i) * std::int64_t{100'000'000});
+  for (int i = 0; i < count + kSmall; ++i) {
+    Bytes bytes = cloud(i < count ? returns : 100, (1000 + i) * std::int64_t{100'000'000});
     sent += writer->write(&bytes) ? 1 : 0;
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
+  writer->wait_for_acknowledgments(eprosima::fastrtps::Duration_t(60, 0));
   std::printf("sent %d\n", sent);
   std::fflush(stdout);
 }
@@ -232,9 +241,11 @@ void send_clouds(fast::DomainParticipant* node, const std::string& name, int cou
 
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
+  std::vector<fast::DomainParticipant*> participants;  // those who receive first
   if (arguments.size() >= 6 && arguments[0] == "relay") {
     auto* from = participant(static_cast<std::uint32_t>(std::stoul(arguments[1])));
     auto* to = participant(static_cast<std::uint32_t>(std::stoul(arguments[2])));
+    participants = {from, to};
     for (std::size_t i = 3; i + 2 < arguments.size(); i += 3) {
       relay(from, to, arguments[i], arguments[i + 1], arguments[i + 2] == "transient").detach();
     }
@@ -250,9 +261,9 @@ int main(int argc, char** argv) {
     std::cerr << "usage: see the head of fastdds_peer.cpp\n";
     return 2;
   }
-  std::cerr << "ready\n";
   while (std::cin.get() != EOF) {
   }
-  // Threads of the listeners run on: nothing they use may be destroyed.
+  // Who receives from it sees that it goes; nothing that threads of listeners use is destroyed.
+  for (auto* each : participants) each->delete_contained_entities();
   std::_Exit(0);
 }

@@ -24,15 +24,50 @@ from xml.etree import ElementTree
 AIMS, GARBAGE, PEER = None, None, None
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 SCENARIO = os.path.join(os.path.dirname(FOLDER), "walk.yaml")  # standing, then three metres
+# Half a minute of walking, for what a loaded machine must do meanwhile.
+LONG_WALK = ["--set", "scene.corridor.length=22", "--set",
+             "route.points=[{name: a, x: 0.0, y: 0.0}, {name: b, x: 15.0, y: 0.0}]"]
 TOPICS = ["--set", "recording.topics.lidar=/lidar/points"]
-PATIENCE_S = 60  # with a loaded machine
+PATIENCE_S = 120  # with a loaded machine
 domains = itertools.count(os.getpid())
 rosbag_lock = threading.Lock()
+of_this_test = threading.local()  # each has a thread of its own while it runs
 
 
 def own_domain():
-    """No two tests share a domain, and no test that of a robot."""
-    return str(100 + next(domains) % 100)
+    """A domain of DDS that nobody uses on this machine: no other test, whose port it holds, and no other program, whose
+    ports its participants would have (7400 and so on, by the standard). Below 100 are those of robots."""
+    for number in itertools.islice(domains, 100):
+        domain = 100 + number % 100
+        first_port = 7400 + 250 * domain
+        holder = socket.socket()  # TCP, which DDS does not use
+        try:
+            holder.bind(("127.0.0.1", first_port))
+            for port in range(first_port + 10, first_port + 30):
+                with socket.socket(type=socket.SOCK_DGRAM) as probe:
+                    probe.bind(("127.0.0.1", port))
+        except OSError:
+            holder.close()
+            continue
+        of_this_test.domains.append(holder)
+        return str(domain)
+    raise AssertionError("no free domain of DDS")
+
+
+def start(*command, **options):
+    """A process that ends with its test, however that ends."""
+    process = subprocess.Popen(["setpriv", "--pdeathsig", "KILL", *command], **options)
+    of_this_test.processes.append(process)
+    return process
+
+
+def wait_for(what, condition, failed=str):
+    """Raises, with what `failed` says, where it never becomes true."""
+    end = time.monotonic() + PATIENCE_S
+    while not condition():
+        if time.monotonic() > end:
+            raise AssertionError(f"no {what} in {PATIENCE_S} s\n{failed()}")
+        time.sleep(0.05)
 
 
 def content(path):
@@ -79,9 +114,9 @@ def estimate(recording, folder, *options, codes=(0,)):
 
 class Live:
     """`aims live` on a recording that `aims play` plays. Faster than at its own pace, messages arrive at their times of
-    sending. Of clouds that waited, none is dropped: the recording is shorter than their patience."""
+    sending. No cloud is dropped that waited for less than 20 s."""
 
-    def __init__(self, recording, name, live=(), play=(), pace=8, max_wait=20, play_domain=None, limit=(),
+    def __init__(self, recording, name, live=(), play=(), pace=4, max_wait=20, play_domain=None, limit=(),
                  settle="2", wait="--wait"):
         for old in (name, name + ".mcap", *glob.glob(name + "-[0-9].mcap")):
             shutil.rmtree(old, ignore_errors=True)
@@ -89,16 +124,15 @@ class Live:
                 os.remove(old)
         self.name, self.domain = name, own_domain()
         with open(name + ".log", "w", encoding="utf-8") as log:
-            self.live = subprocess.Popen([*limit, AIMS, "live", "--domain", self.domain, "--out", name, "--record",
-                                          name + ".mcap", "--settle", settle, "--max_wait", str(max_wait), *TOPICS,
-                                          *(["--source_time"] if pace > 1 else []), *live], stdout=log, stderr=log)
+            self.live = start(*limit, AIMS, "live", "--domain", self.domain, "--out", name, "--record", name + ".mcap",
+                              "--settle", settle, "--max_wait", str(max_wait), *TOPICS,
+                              *(["--source_time"] if pace > 1 else []), *live, stdout=log, stderr=log)
         self.play_command = [AIMS, "play", recording, "--domain", play_domain or self.domain, "--rate", str(pace),
                              *play]
         self.start_play(wait)
 
     def start_play(self, *wait):
-        self.play = subprocess.Popen([*self.play_command, *wait], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                     text=True)
+        self.play = start(*self.play_command, *wait, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
     def kill(self):
         for process in (self.play, self.live):
@@ -106,12 +140,7 @@ class Live:
                 process.kill()
 
     def wait_for(self, what, condition):
-        end = time.monotonic() + PATIENCE_S
-        while not condition():
-            if time.monotonic() > end:
-                self.kill()
-                raise AssertionError(f"no {what} in {PATIENCE_S} s\n{self.log()}")
-            time.sleep(0.05)
+        wait_for(what, condition, self.log)
 
     def wait_for_poses(self, count):
         """Until there are so many more; how long that took [s]."""
@@ -131,19 +160,23 @@ class Live:
         return [line for line in self.log().splitlines() if line.startswith("health at")]
 
     def silent(self):
-        """Whether it has ended, or read all that was sent and said so."""
+        """Whether it has ended, or read all that was sent and said so: with publishers, it may wait for more."""
         states = self.states()
-        return self.live.poll() is not None or bool(states) and "no messages" in states[-1]
+        return self.live.poll() is not None or bool(states) and states[-1].endswith("no messages")
 
     def tell(self, command):
         run(AIMS, "live", "--domain", self.domain, "--tell", command)
 
+    def wait_to_end(self):
+        """For the player, then for silence."""
+        if self.play.returncode is None:
+            self.said = self.play.communicate(timeout=PATIENCE_S)[0]
+        self.wait_for("silence", self.silent)
+
     def finish(self, ending=signal.SIGTERM):
-        """Waits for the player, then for silence; ends the estimate by that signal. Its exit code."""
+        """Waits to the end; ends the estimate by that signal. Its exit code."""
         try:
-            if self.play.returncode is None:
-                self.said = self.play.communicate(timeout=PATIENCE_S)[0]
-            self.wait_for("silence", self.silent)
+            self.wait_to_end()
             self.live.send_signal(ending)
             return self.live.wait(PATIENCE_S)
         finally:
@@ -162,13 +195,13 @@ class Live:
         return "".join(line for line in lines if "malformed packet" not in line)
 
 
-def altered(name, change):
-    """walk.bag with each message, and its record time, as `change` gives them, or without it (None); nothing is
+def altered(name, change, recording="walk.bag"):
+    """The recording with each message, and its record time, as `change` gives them, or without it (None); nothing is
     latched."""
     import rosbag
 
     # The types that rosbag makes of definitions are for one thread.
-    with rosbag_lock, rosbag.Bag("walk.bag") as source, rosbag.Bag(name, "w") as target:
+    with rosbag_lock, rosbag.Bag(recording) as source, rosbag.Bag(name, "w") as target:
         for topic, message, stamp in source.read_messages():
             changed = change(topic, message, stamp)
             if changed:
@@ -179,8 +212,8 @@ def altered(name, change):
 class LiveEstimate(unittest.TestCase):
     @classmethod
     def prepare(cls):
-        for recording in ("walk.mcap", "walk.bag"):
-            run(AIMS, "simulate", SCENARIO, "-o", recording, "--quiet", "--overwrite")
+        for recording, settings in (("walk.mcap", []), ("walk.bag", []), ("long.bag", LONG_WALK)):
+            run(AIMS, "simulate", SCENARIO, *settings, "-o", recording, "--quiet", "--overwrite")
         cls.offline = estimate("walk.mcap", "offline")
 
     def assert_same_file(self, live, file):
@@ -276,7 +309,7 @@ class LiveEstimate(unittest.TestCase):
         def without_legs(topic, message, stamp):
             return None if topic in ("/leg_odometry", "/joint_states", "/foot_contacts") else (message, stamp)
 
-        live = Live(altered("no_legs.bag", without_legs), "again", pace=4)
+        live = Live(altered("no_legs.bag", without_legs), "again", pace=2)
         live.said = live.play.communicate(timeout=PATIENCE_S)[0]
         live.wait_for("record of what it forgot", lambda: os.path.getsize("again.mcap") > 1_000_000)
         self.assertFalse(live.written(), live.log())
@@ -292,24 +325,21 @@ class LiveEstimate(unittest.TestCase):
     def test_beside_another_estimate_the_times_are_those_of_the_recording(self):
         live = Live("walk.mcap", "beside", pace=3, wait="--wait=2")
         with open("other.log", "w", encoding="utf-8") as log:
-            other = subprocess.Popen([AIMS, "live", "--domain", live.domain, "--node", "other", "--tf", *TOPICS],
-                                     stdout=log, stderr=log)
-        try:
-            self.assertEqual(live.finish(), 0, live.log())
-        finally:
-            other.kill()
-            other.wait()
+            start(AIMS, "live", "--domain", live.domain, "--node", "other", "--tf", *TOPICS, stdout=log, stderr=log)
+        self.assertEqual(live.finish(), 0, live.log())
         self.assertEqual(live.poses(), self.offline)
         lines = info_of("beside.mcap")
         self.assertLess(float(re.search(r"([0-9.]+) s, \d+ messages", lines)[1]), 20.0, lines)
-        self.assertEqual([line for line in live.states() if "no messages" in line], live.states()[-1:])
+        self.assertEqual([line for line in live.states() if line.endswith("no messages")], live.states()[-1:])
 
     def test_of_a_program_that_was_stopped_no_replay_says_that_a_clock_was_set(self):
-        live = Live("walk.mcap", "paused", pace=1)
+        live = Live("long.bag", "paused", pace=1)
         live.wait_for_poses(10)
         live.live.send_signal(signal.SIGSTOP)
         time.sleep(6.5)  # before DDS takes it for killed
         live.live.send_signal(signal.SIGCONT)
+        live.wait_for_poses(30)
+        live.stop_play(signal.SIGTERM)
         self.assertEqual(live.finish(), 0, live.log())
         self.assertEqual(live.poses(), estimate("paused.mcap", "paused-again", codes=(0, 4)), "invalid for a while")
         found = summary("paused-again")
@@ -324,25 +354,25 @@ class LiveEstimate(unittest.TestCase):
     def test_what_is_lost_while_it_is_stopped_is_counted(self):
         # After two seconds, not ten, DDS takes it for killed.
         lease = ("<CycloneDDS><Domain><Discovery><LeaseDuration>2 s</LeaseDuration></Discovery></Domain></CycloneDDS>")
-        live = Live("walk.mcap", "stopped", pace=1,
+        live = Live("long.bag", "stopped", pace=1,
                     limit=["env", f"CYCLONEDDS_URI={os.environ['CYCLONEDDS_URI']},{lease}"])
         live.wait_for_poses(10)
         live.live.send_signal(signal.SIGSTOP)
         time.sleep(4)
         live.live.send_signal(signal.SIGCONT)
         self.assertEqual(live.finish(), 0, live.log())
-        sent, recorded = counts("walk.mcap"), counts("stopped.mcap")
+        sent, recorded = counts("long.bag"), counts("stopped.mcap")
         missing = sum(sent[topic] - recorded[topic] for topic in recorded if topic in sent)
         self.assertGreater(missing, 500)
         found = re.search(r"note: (\d+) messages lost by the network", live.log())
         self.assertEqual(int(found[1]) if found else 0, missing, live.log())
 
     def test_overloaded_it_drops_the_oldest_clouds_and_counts_them(self):
-        live = Live("walk.mcap", "overload", ["--source_time"], pace=1, max_wait=0.05)
+        live = Live("long.bag", "overload", ["--source_time"], pace=1, max_wait=0.05)
         live.wait_for_poses(10)
         for _ in range(6):
             live.live.send_signal(signal.SIGSTOP)  # as if another program took the processor
-            time.sleep(0.6)  # of topics that wait, the order of arrival is lost: a second would be a jump of clocks
+            time.sleep(0.5)  # of topics that wait, the order of arrival is lost: a second would be a jump of clocks
             live.live.send_signal(signal.SIGCONT)
             live.wait_for_poses(3)
         live.wait_for("cause", lambda: "too slow" in live.log())
@@ -358,7 +388,7 @@ class LiveEstimate(unittest.TestCase):
         self.assertEqual(live.poses(), estimate("overload.mcap", "overload-again"), "without the dropped ones")
 
     def test_a_driver_that_restarts_with_another_clock_starts_an_estimate_where_the_last_one_ended(self):
-        live = Live("walk.mcap", "restart", pace=1)
+        live = Live("long.bag", "restart", pace=1)
         live.wait_for_walk()
         live.stop_play()
         live.start_play()
@@ -375,11 +405,11 @@ class LiveEstimate(unittest.TestCase):
         self.assertGreater(distance(second[0], second[-1]), 1.0, "and walks")
 
     def test_a_topic_with_two_publishers_is_in_the_health_while_there_are_two(self):
-        live = Live("walk.mcap", "twice", pace=1)
+        live = Live("long.bag", "twice", pace=1)
         live.wait_for_poses(10)
         first = live.play
         live.start_play()
-        live.wait_for("second publisher", lambda: "/imu/data has 2 publishers" in live.states()[-1])
+        live.wait_for("second publisher", lambda: "/imu/data has 2 publishers" in live.log())
         live.wait_for_poses(20)
         first.terminate()
         live.stop_play(signal.SIGTERM)
@@ -392,7 +422,7 @@ class LiveEstimate(unittest.TestCase):
 
     def test_fixed_transforms_that_are_sent_once_last_when_the_estimate_starts_anew(self):
         once = altered("once.bag", lambda topic, message, stamp: (message, stamp))
-        live = Live(once, "statics", pace=3)
+        live = Live(once, "statics", pace=1.5)
         live.wait_for_walk()
         live.stop_play()
         live.play_command += ["--topics", "/imu/data,/lidar/points,/joint_states,/foot_contacts,/leg_odometry"]
@@ -407,7 +437,8 @@ class LiveEstimate(unittest.TestCase):
         self.assertNotIn("NO TRANSFORM", json.dumps(summary("statics-again")["warnings"]))
 
     def test_fixed_transforms_that_come_late_serve_the_next_estimate(self):
-        bare = altered("bare.bag", lambda topic, message, stamp: None if topic == "/tf_static" else (message, stamp))
+        bare = altered("bare.bag", lambda topic, message, stamp: None if topic == "/tf_static" else (message, stamp),
+                       "long.bag")
         live = Live(bare, "late", pace=1)
         live.wait_for_poses(10)
         subprocess.run([AIMS, "play", "walk.bag", "--domain", live.domain, "--topics", "/tf_static", "--wait"],
@@ -442,9 +473,9 @@ class LiveEstimate(unittest.TestCase):
 
     def kill_a_subscriber(self, pace):
         """DDS notices it after 10 s. In step with its subscribers, the player waits a second once."""
-        live = Live("walk.mcap", f"other-{pace}", pace=pace)
-        with subprocess.Popen([GARBAGE, live.domain, "listen", "/lidar/points", "sensor_msgs/PointCloud2"],
-                              stdout=subprocess.PIPE) as other:
+        live = Live("long.bag", f"other-{pace}", pace=pace)
+        with start(GARBAGE, live.domain, "listen", "/lidar/points", "sensor_msgs/PointCloud2",
+                   stdout=subprocess.PIPE) as other:
             other.stdout.readline()
             live.wait_for_poses(25)  # what was gathered is estimated
             usual = live.wait_for_poses(10)
@@ -469,7 +500,7 @@ class LiveEstimate(unittest.TestCase):
                          r"messages were not sent: DDS holds times from 1970 to 2038, the first .* 4294966\d\d\d")
 
     def test_commands_save_the_map_and_start_anew(self):
-        live = Live("walk.mcap", "commands", pace=1)
+        live = Live("long.bag", "commands", pace=1)
         live.wait_for("estimate", lambda: live.written() > 2000)
         live.live.send_signal(signal.SIGUSR1)
         map_file = os.path.join("commands", "aims_d.map.ply")
@@ -496,48 +527,44 @@ class LiveEstimate(unittest.TestCase):
 
     def test_the_page_shows_what_is_estimated(self):
         live = Live("walk.mcap", "watched", pace=2)
-        watch = subprocess.Popen([AIMS, "watch", "--domain", live.domain, "--port", "0"], stdout=subprocess.PIPE,
-                                 text=True)
-        try:
-            url = watch.stdout.readline().split()[-1]
-            self.assertRegex(url, r"^http://127\.0\.0\.1:\d+/$")
+        watch = start(AIMS, "watch", "--domain", live.domain, "--port", "0", stdout=subprocess.PIPE, text=True)
+        url = watch.stdout.readline().split()[-1]
+        self.assertRegex(url, r"^http://127\.0\.0\.1:\d+/$")
 
-            def state():
-                with urllib.request.urlopen(url + "state.json", timeout=5) as answer:
-                    return json.load(answer)
+        def state():
+            with urllib.request.urlopen(url + "state.json", timeout=PATIENCE_S) as answer:
+                return json.load(answer)
 
-            live.wait_for("walk on the page", lambda: state()["pose"] and state()["pose"][0] > 0.5)
-            live.wait_for("scan on the page", lambda: len(state()["scan"]) > 300)
-            shown = state()
-            self.assertIn([round(each, 9) for each in shown["pose"][:2]],
-                          [[round(each, 9) for each in place[:2]] for place in places(live.poses())])
-            self.assertIn("scans per second", dict(shown["health"]["values"]))
-            with urllib.request.urlopen(url, timeout=5) as page:
-                text = page.read().decode()
-            self.assertIn("connect-src 'self'", text)
-            live.stop_play(signal.SIGTERM)
-        finally:
-            watch.send_signal(signal.SIGTERM)
-            self.assertEqual(watch.wait(10), 0)
-            watch.stdout.close()
+        def is_written(pose):  # soon after it is published
+            return [round(each, 9) for each in pose[:2]] in [[round(each, 9) for each in place[:2]]
+                                                             for place in places(live.poses())]
+
+        live.wait_for("walk on the page", lambda: state()["pose"] and state()["pose"][0] > 0.5)
+        live.wait_for("scan on the page", lambda: len(state()["scan"]) > 300)
+        live.wait_for("health on the page", lambda: state()["health"])
+        shown = state()
+        live.wait_for("pose of the page", lambda: is_written(shown["pose"]))
+        self.assertIn("scans per second", dict(shown["health"]["values"]))
+        with urllib.request.urlopen(url, timeout=PATIENCE_S) as page:
+            text = page.read().decode()
+        self.assertIn("connect-src 'self'", text)
+        live.stop_play(signal.SIGTERM)
+        watch.send_signal(signal.SIGTERM)
+        self.assertEqual(watch.wait(PATIENCE_S), 0)
         self.assertEqual(live.finish(), 0, live.log())
 
     def test_a_silent_client_does_not_block_the_page(self):
-        watch = subprocess.Popen([AIMS, "watch", "--domain", own_domain(), "--port", "0"], stdout=subprocess.PIPE,
-                                 text=True)
-        try:
-            url = watch.stdout.readline().split()[-1]
-            port = int(url.rsplit(":", 1)[1].strip("/"))
-            with socket.create_connection(("127.0.0.1", port)) as silent:
-                silent.sendall(b"GET / HT")
-                with urllib.request.urlopen(url + "state.json", timeout=5) as answer:
-                    self.assertEqual(answer.status, 200)
-                silent.settimeout(10)
-                self.assertEqual(silent.recv(1), b"", "it is closed after two seconds")
-        finally:
-            watch.send_signal(signal.SIGTERM)
-            self.assertEqual(watch.wait(10), 0)
-            watch.stdout.close()
+        watch = start(AIMS, "watch", "--domain", own_domain(), "--port", "0", stdout=subprocess.PIPE, text=True)
+        url = watch.stdout.readline().split()[-1]
+        port = int(url.rsplit(":", 1)[1].strip("/"))
+        with socket.create_connection(("127.0.0.1", port)) as silent:
+            silent.sendall(b"GET / HT")
+            with urllib.request.urlopen(url + "state.json", timeout=PATIENCE_S) as answer:
+                self.assertEqual(answer.status, 200)
+            silent.settimeout(PATIENCE_S)
+            self.assertEqual(silent.recv(1), b"", "it is closed after two seconds")
+        watch.send_signal(signal.SIGTERM)
+        self.assertEqual(watch.wait(PATIENCE_S), 0)
 
     def test_what_was_heard_is_recorded_though_it_never_starts(self):
         live = Live("walk.mcap", "unstarted", [part for topic in ("leg_odometry", "joint_states", "contacts")
@@ -591,7 +618,7 @@ class LiveEstimate(unittest.TestCase):
         run(AIMS, "info", "crash.mcap", "--recover")
 
     def test_a_broken_participant_is_counted_and_harms_nothing_else(self):
-        live = Live("walk.mcap", "garbage", pace=1)
+        live = Live("long.bag", "garbage", pace=1)
         live.wait_for("estimate", lambda: "publishes" in live.log())
         garbage = subprocess.run([GARBAGE, live.domain, "/imu/data", "sensor_msgs/Imu", "/lidar/points",
                                   "sensor_msgs/PointCloud2"], capture_output=True, text=True, timeout=300, check=False)
@@ -619,36 +646,45 @@ class FastDds(unittest.TestCase):
     def setUp(self):
         if not PEER:
             self.skipTest("libfastrtps-dev is not installed")
-        self.processes = []
 
-    def tearDown(self):
-        for process in self.processes:
-            if process.poll() is None:
-                process.kill()
-            process.communicate()
-
-    def peer(self, *arguments):
-        self.processes.append(subprocess.Popen([PEER, *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                               stderr=subprocess.DEVNULL, text=True))
-        return self.processes[-1]
+    def peer(self, *arguments, output=subprocess.PIPE):
+        return start(PEER, *arguments, stdin=subprocess.PIPE, stdout=output, stderr=subprocess.DEVNULL, text=True)
 
     def test_clouds_and_all_else_pass_through_it_and_it_reads_the_odometry(self):
         played = own_domain()
         topics = ["/" + topic for topic, _, _ in RELAYED]
         live = Live("walk.mcap", "fastdds", play=["--topics", ",".join(topics)], pace=2, play_domain=played)
-        self.peer("relay", played, live.domain, *[f"{word}" if i else f"rt/{word}"
-                                                  for each in RELAYED for i, word in enumerate(each)])
-        reader = self.peer("odometry", live.domain, "rt/aims/odometry")
+        with open("odometry.txt", "w", encoding="utf-8") as output:
+            self.peer("odometry", live.domain, "rt/aims/odometry", output=output)
+
+        def heard():
+            return content("odometry.txt").decode().splitlines()
+
+        def time_of(line):
+            seconds, nanoseconds = line.split()[0].split(".")
+            return int(seconds) * 10**9 + int(nanoseconds)
+
+        def written():
+            rows = map(str.split, live.poses().decode().splitlines())
+            return {round(float(row[0]) * 1e9): row[1:] for row in rows}
+
+        live.wait_for("reader of the odometry", lambda: heard() == ["matched"])
+        relay = self.peer("relay", played, live.domain, *[f"{word}" if i else f"rt/{word}"
+                                                          for each in RELAYED for i, word in enumerate(each)])
+        live.said = live.play.communicate(timeout=PATIENCE_S)[0]
+        live.wait_for("silence", lambda: live.states() and "no messages" in live.states()[-1])
+        relay.communicate("", timeout=PATIENCE_S)
+        live.wait_to_end()
+        live.wait_for("last odometry", lambda: heard()[1:] and time_of(heard()[-1]) == max(written()))
         self.assertEqual(live.finish(), 0, live.log())
         self.assertNotIn("dropped", live.log())
         self.assertEqual(live.poses(), estimate("walk.mcap", "fastdds-offline"))
-        lines = reader.communicate("", timeout=20)[0].splitlines()
-        written = {round(float(row.split()[0]) * 1e9): row.split()[1:] for row in live.poses().decode().splitlines()}
-        self.assertGreater(len(lines), 0.8 * len(written))
+        lines = heard()[1:]
+        poses = written()
+        self.assertGreater(len(lines), 0.8 * len(poses))
         for line in lines:
-            stamp, frame, child, *numbers = line.split()
-            seconds, nanoseconds = stamp.split(".")
-            pose = written[int(seconds) * 10**9 + int(nanoseconds)]
+            _, frame, child, *numbers = line.split()
+            pose = poses[time_of(line)]
             self.assertEqual((frame, child), ("odom", "imu"))
             self.assertEqual([float(each) for each in numbers[:7]], [float(each) for each in pose])
             self.assertTrue(all(float(numbers[i]) > 0.0 for i in (7, 8, 10)), line)
@@ -663,12 +699,10 @@ class FastDds(unittest.TestCase):
             os.remove(old)
         domain = own_domain()
         with open(name + ".log", "w", encoding="utf-8") as log:
-            live = subprocess.Popen([AIMS, "live", "--domain", domain, "--record", name + ".mcap"], stdout=log,
-                                    stderr=log)
-        self.processes.append(live)
+            live = start(AIMS, "live", "--domain", domain, "--record", name + ".mcap", stdout=log, stderr=log)
         sender = self.peer("clouds", domain, "rt/lidar/points", "20", "131072", reliability)
         sent = sender.stdout.readline()
-        time.sleep(2)  # what was lost is sent again
+        time.sleep(2)  # all that was sent is taken
         live.send_signal(signal.SIGTERM)
         self.assertEqual(live.wait(PATIENCE_S), 0)
         said = content(name + ".log").decode()
@@ -681,13 +715,13 @@ class FastDds(unittest.TestCase):
         return int(sent.split()[1]), arrived, int(lost[1]) if lost else 0
 
     def test_large_clouds_that_it_sends_arrive(self):
-        self.assertEqual(self.clouds_arrive("reliable"), (20, 20, 0))
+        self.assertEqual(self.clouds_arrive("reliable"), (25, 25, 0))
 
     def test_of_large_clouds_that_it_sends_as_best_effort_those_that_are_lost_are_counted(self):
         sent, arrived, lost = self.clouds_arrive("best_effort")
-        self.assertEqual(sent, 20)
+        self.assertEqual(sent, 25)
         self.assertGreater(arrived, 0)
-        self.assertIn(arrived + lost, range(18, 21), "of the last ones nobody tells")
+        self.assertIn(arrived + lost, range(23, 26), "of the last ones nobody tells")
 
 
 def tests_of(suite):
@@ -696,7 +730,11 @@ def tests_of(suite):
 
 
 def passes(test):
+    of_this_test.processes, of_this_test.domains = [], []
     result = test.run()
+    for process in of_this_test.processes:
+        process.kill()
+        process.wait()
     begin = "ok" if result.wasSuccessful() else "FAILED"
     print(f"{begin}: {test.id()} {result.skipped}", *[text for _, text in result.failures + result.errors], sep="\n",
           flush=True)

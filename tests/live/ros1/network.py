@@ -15,10 +15,13 @@ def free_port():
         return probe.getsockname()[1]
 
 
-def wait_until(condition, seconds, what):
-    end = time.monotonic() + seconds
+PATIENCE_S = 120  # with a loaded machine
+
+
+def wait_until(condition, what):
+    end = time.monotonic() + PATIENCE_S
     while not condition():
-        assert time.monotonic() < end, f"waited {seconds} s in vain: {what}"
+        assert time.monotonic() < end, f"waited {PATIENCE_S} s in vain: {what}"
         time.sleep(0.05)
 
 
@@ -35,7 +38,7 @@ class Network:
     def __enter__(self):
         self.start(["rosmaster", "--core", "-p", self.uri.rsplit(":", 1)[1]],
                    stdout=subprocess.DEVNULL)
-        wait_until(self.answers, 10, "the master")
+        wait_until(self.answers, "the master")
         return self
 
     def __exit__(self, *_):
@@ -43,7 +46,7 @@ class Network:
             if process.poll() is None:
                 process.send_signal(signal.SIGINT)
                 try:
-                    process.wait(5)
+                    process.wait(PATIENCE_S)
                 except subprocess.TimeoutExpired:
                     process.kill()
             process.wait()
@@ -67,6 +70,8 @@ class Network:
         except OSError:
             return False
 
+    def publishers(self, topic):
+        return dict(self.ask("getSystemState")[0]).get(topic, [])
+
     def subscribers(self, topic):
-        _, subscribers, _ = self.ask("getSystemState")
-        return dict(subscribers).get(topic, [])
+        return dict(self.ask("getSystemState")[1]).get(topic, [])

@@ -6,10 +6,9 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
 import unittest
 
-from network import Network, free_port, wait_until
+from network import PATIENCE_S, Network, free_port, wait_until
 
 AIMS, NODE = None, None
 # Eleven seconds: standing, then three metres.
@@ -64,30 +63,34 @@ class LiveEstimate(unittest.TestCase):
         with open("node.log", "w", encoding="utf-8") as log:
             node = network.start([NODE, "--tf", "--settle", "2", "--out", "live", "--record", "live.bag", "--set",
                                   "recording.topics.lidar=/lidar/points"], stdout=log, stderr=log)
-            play = network.start(["/usr/lib/rosbag/play", "--quiet", "--delay=2", "walk.bag"],
+            play = network.start(["/usr/lib/rosbag/play", "--quiet", "--wait-for-subscribers", "walk.bag"],
                                  stdout=subprocess.DEVNULL)
-            wait_until(lambda: network.subscribers("/lidar/points"), 10, "the node to subscribe")
-            play.wait(60)
-            cls.play_code = play.returncode
-            cls.wait_for_silence(node)
+            cls.play_code = play.wait(PATIENCE_S)
+            # With publishers, it may wait for more.
+            wait_until(lambda: node.poll() is not None or
+                       any(line.endswith("no messages") for line in cls.said().splitlines()), "silence")
+            wait_until(cls.heard_the_last, "the last odometry")
             node.send_signal(signal.SIGINT)
-            cls.node_code = node.wait(10)
+            cls.node_code = node.wait(PATIENCE_S)
+        cls.log = cls.said()
+
+    @staticmethod
+    def said():
         with open("node.log", encoding="utf-8") as log:
-            cls.log = log.read()
+            return log.read()
 
     @classmethod
-    def wait_for_silence(cls, node):
-        heard = -1
-        while node.poll() is None and heard < len(cls.listener.odometry):
-            heard = len(cls.listener.odometry)
-            time.sleep(0.6)
+    def heard_the_last(cls):
+        written = max(poses_of("live/aims_d.tum"), default=None)
+        return cls.listener.odometry and cls.listener.odometry[-1].header.stamp.to_nsec() == written
 
     def test_an_error_of_a_missing_topic_lists_the_existing_ones(self):
         with Network(os.path.abspath("log")) as network:
             network.start(["/usr/lib/rosbag/play", "--quiet", "walk.bag"],
                           stdout=subprocess.DEVNULL)
-            fails(self, ["timeout after 3 s", "/absent", "/imu/data"], network.environment,
-                  "--settle", "1", "--patience", "3", "--set", "recording.topics.imu=/absent")
+            wait_until(lambda: network.publishers("/imu/data"), "the player")
+            fails(self, ["timeout after 8 s", "/absent", "/imu/data"], network.environment,
+                  "--settle", "1", "--patience", "8", "--set", "recording.topics.imu=/absent")
 
     def test_the_node_ends_well(self):
         self.assertEqual((self.play_code, self.node_code), (0, 0), self.log)
@@ -137,7 +140,7 @@ class LiveEstimate(unittest.TestCase):
 
 def fails(test, expected, environment, *arguments):
     run = subprocess.run([NODE, *arguments], capture_output=True, text=True, check=False,
-                         env=environment, timeout=20)
+                         env=environment, timeout=PATIENCE_S)
     test.assertEqual(run.returncode, 2, run.stderr)
     test.assertEqual(run.stderr.count("\n"), 1, run.stderr)
     for text in expected:
