@@ -38,6 +38,7 @@ void warn(const std::string& message) { fmt::print(stderr, "aims_play: warning: 
 
 struct PlayOptions {
   std::vector<std::string> files;
+  bool recover = false;             ///< of a damaged recording, what is intact
   double rate = 1.0;                ///< of the recording's pace
   std::vector<std::string> topics;  ///< empty: all
   std::size_t wait = 0;  ///< for so many subscribers of each topic before it starts; 0: a second
@@ -184,7 +185,8 @@ void wait_to_start(const DdsTransport& transport, const PacedSink& sink, std::si
 
 Result<void> play(const PlayOptions& options, const DdsOptions& dds) {
   const std::vector<std::filesystem::path> with(options.files.begin() + 1, options.files.end());
-  const auto recording = open_recording(options.files.front(), {.with = with});
+  const auto recording =
+      open_recording(options.files.front(), {.recover = options.recover, .with = with});
   if (!recording) return tl::unexpected(recording.error());
   const auto transport = DdsTransport::connect(dds);
   if (!transport) return tl::unexpected(transport.error());
@@ -215,6 +217,7 @@ int main(int argc, char** argv) {
   app.add_option("recording", options.files,
                  "Recording, simulated or of a robot: files or folders, merged by record time")
       ->required();
+  app.add_flag("--recover", options.recover, "Read the intact part of a damaged recording");
   app.add_option("--rate", options.rate, "Of the recording's pace (1)")
       ->check(CLI::Range(0.01, 1000.0));
   add_domain_option(app, dds);
