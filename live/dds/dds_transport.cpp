@@ -21,7 +21,8 @@ constexpr int kHistory = 100;       ///< messages of a topic that wait in DDS
 constexpr std::size_t kBatch = 16;  ///< samples per call of DDS
 constexpr std::size_t kHeader = 4;  ///< of CDR [bytes]
 
-constexpr Duration kOwnClock = kSecond;  ///< times of sending by this computer's clock are as near
+/// Times of sending by this computer's clock are as near, also on a busy one.
+constexpr Duration kOwnClock = 5 * kSecond;
 
 constexpr auto kWatchPeriod = std::chrono::seconds(1);
 
