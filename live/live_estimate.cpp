@@ -6,10 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <utility>
 
+#include "live/live_source.hpp"
 #include "live/program.hpp"
+#include "recordings/source/decided_start.hpp"
 
 namespace aims {
 namespace {
@@ -171,9 +172,19 @@ std::vector<std::string> LiveEstimate::reasons_of_node() {
   const std::set used = {topics.lidar, topics.imu, topics.leg_odometry, topics.joint_states,
                          topics.contacts};
   for (const auto& [topic, count] : transport_.take_doubled()) {
-    if (used.contains(topic)) reasons.push_back(fmt::format("{} has {} publishers", topic, count));
+    if (!used.contains(topic)) continue;
+    reasons.push_back(fmt::format("{} has {} publishers", topic, count));
+    record_doubled(topic, reasons.back());
   }
   return reasons;
+}
+
+/// So that a replay knows it too.
+void LiveEstimate::record_doubled(const std::string& topic, const std::string& reason) {
+  if (!doubled_.insert(topic).second) return;
+  const auto record = [this](const BagMessage& message) { start_.recorder->add(message); };
+  show_mark(record, kDoubledTopic, reader_.summary().start + reader_.position(),
+            transport_.format(), reason);
 }
 
 /// Adds the reasons of the node; publishes. What was queued before a silence changes nothing of it.

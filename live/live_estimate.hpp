@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,7 +28,7 @@ struct LiveStart {
   /// Its start in the frame of what is published; none: the origin.
   std::optional<Pose> T_odom_start;
   const ClockWatch* clocks = nullptr;    ///< of its topics
-  const Recorder* recorder = nullptr;    ///< of its topics
+  Recorder* recorder = nullptr;          ///< of its topics
   std::vector<ReadingWarning> warnings;  ///< their reasons are in its health
   bool standing = false;                 ///< the robot should stand: motion is a warning
   MissedMessages missed;                 ///< before it
@@ -77,6 +78,7 @@ class LiveEstimate {
   void warn_of_file(const Result<void>& state, const char* reason);
   void name_overload(HealthRow& row);
   std::vector<std::string> reasons_of_node();
+  void record_doubled(const std::string& topic, const std::string& reason);
   void publish_health(std::vector<HealthRow>& rows);
   void publish(const HealthRow& row);
   void publish_points(Time stamp);
@@ -103,6 +105,7 @@ class LiveEstimate {
   std::size_t dropped_ = 0;  ///< messages, at the last row
   std::optional<Stopwatch> since_dropped_;
   std::size_t read_warnings_ = 0;  ///< of the reader, told
+  std::set<std::string> doubled_;  ///< topics of several publishers, as recorded
   std::size_t taken_poses_ = 0;
   std::size_t taken_health_ = 0;
   std::size_t poses_ = 0;

@@ -109,7 +109,7 @@ void LiveSource::rewind() {
 }
 
 void show_mark(const LiveSource::Observer& observer, const char* topic, Time record_time,
-               MessageFormat format) {
+               MessageFormat format, const std::string& text) {
   const MessageType type =
       format == kRos2Format ? *known_ros2_type("std_msgs/String") : string_type();
   const BagConnection connection = {.topic = topic,
@@ -117,8 +117,8 @@ void show_mark(const LiveSource::Observer& observer, const char* topic, Time rec
                                     .md5 = type.md5,
                                     .definition = type.definition,
                                     .format = format};
-  const auto text = string_message("by a live estimate", format.serialization);
-  observer({.connection = &connection, .record_time = record_time, .data = text.view()});
+  const auto message = string_message(text, format.serialization);
+  observer({.connection = &connection, .record_time = record_time, .data = message.view()});
 }
 
 Result<RecordingReader> open_live(std::unique_ptr<LiveSource> source,

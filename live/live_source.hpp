@@ -76,7 +76,7 @@ class LiveSource final : public MessageSource {
 
 /// Shows the observer a message without a publisher, whose topic says what it marks.
 void show_mark(const LiveSource::Observer& observer, const char* topic, Time record_time,
-               MessageFormat format);
+               MessageFormat format, const std::string& text = "by a live estimate");
 
 /// Opens the topics as those of a recording are: the halves of an IMU, and legs in messages of
 /// their own, are joined. `source` lives as long as the reader.

@@ -19,6 +19,7 @@ enum class WarningKind {
   kPointTimes,       ///< cannot serve
   kMissingMessages,  ///< were not recorded
   kRepeatedClouds,
+  kDoubledTopic,     ///< had several publishers
   kJointRates,       ///< contradict the angles
   kDeadLegSensor,    ///< angles that stand still, a foot that never stands
   kFeetAgainstGyro,  ///< feet turn otherwise than the gyro says

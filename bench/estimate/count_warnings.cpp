@@ -213,8 +213,15 @@ void warn_of_clouds(EstimateResult& result) {
   }
 }
 
-/// Likewise of the recorder.
-void warn_of_recorder(EstimateResult& result) {
+/// Whether a topic had several publishers, whose messages lie beside each other.
+bool is_doubled(const EstimateResult& result) {
+  const auto& warnings = result.setup.warnings;
+  return std::ranges::find(warnings, WarningKind::kDoubledTopic, &ReadingWarning::kind) !=
+         warnings.end();
+}
+
+/// Likewise of the recorder's clock.
+void warn_of_record_times(EstimateResult& result) {
   if (const int early = count_of(result, "recorded_before_their_stamp"); early > 0) {
     result.setup.warnings.push_back(
         {"recorder's clock was set back or not set",
@@ -238,6 +245,11 @@ void warn_of_recorder(EstimateResult& result) {
         "less: the recorder was stopped or too slow; they arrive at their stamp and that delay",
         late));
   }
+}
+
+/// Likewise of the recorder.
+void warn_of_recorder(EstimateResult& result) {
+  if (!is_doubled(result)) warn_of_record_times(result);
   if (result.summary.lost_bytes > 0) {
     result.setup.warnings.push_back(
         {"parts of the recording are lost",

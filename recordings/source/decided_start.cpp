@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/text.hpp"
+#include "recordings/messages/message_decoder.hpp"
+
 namespace aims {
 namespace {
 
@@ -70,6 +73,25 @@ Result<std::optional<BagMessage>> DecidedStart::next() {
 void DecidedStart::rewind() {
   ended_ = false;
   WrappedSource::rewind();
+}
+
+Result<std::vector<std::string>> doubled_topics(MessageSource& recording) {
+  std::vector<std::string> found;
+  if (!has_topic(recording, kDoubledTopic)) return found;
+  recording.select(std::vector<std::string>{kDoubledTopic});
+  recording.rewind();
+  auto message = recording.next();
+  for (; message && *message; message = recording.next()) {
+    const BagConnection& from = *(*message)->connection;
+    const auto decoder = MessageDecoder::create(from.type, from.definition, from.format);
+    if (!decoder) continue;
+    const auto view = decoder->decode((*message)->data);
+    if (!view) continue;
+    found.push_back(line_text(std::string(view->text("data").value_or(""))));
+  }
+  start_anew(recording);
+  if (!message) return tl::unexpected(message.error());
+  return found;
 }
 
 Result<void> leave_out_forgotten(std::unique_ptr<MessageSource>& recording) {

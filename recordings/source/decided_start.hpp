@@ -18,9 +18,12 @@ inline constexpr const char* kDecidedTopic = "/aims/decided";
 /// Topic of the message behind what a live estimate had heard, but no longer had when it decided.
 inline constexpr const char* kForgottenTopic = "/aims/forgotten";
 
+/// Topic of the messages by which it says that topics had several publishers.
+inline constexpr const char* kDoubledTopic = "/aims/doubled";
+
 /// Whether the topic is one of these.
 inline bool is_mark(std::string_view topic) {
-  return topic == kDecidedTopic || topic == kForgottenTopic;
+  return topic == kDecidedTopic || topic == kForgottenTopic || topic == kDoubledTopic;
 }
 
 /// Whether a live estimate made the recording.
@@ -42,6 +45,9 @@ class DecidedStart final : public WrappedSource {
 
 /// Whether it had to forget something.
 bool has_forgotten(const MessageSource& recording);
+
+/// What a live estimate says of topics with several publishers: "/imu/data has 2 publishers".
+Result<std::vector<std::string>> doubled_topics(MessageSource& recording);
 
 /// Leaves out what is before the message on `kForgottenTopic`, if there is one.
 Result<void> leave_out_forgotten(std::unique_ptr<MessageSource>& recording);

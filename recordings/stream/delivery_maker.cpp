@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -33,15 +34,12 @@ void DeliveryMaker::deliver(Role role, Measurement measurement, Time stamp,
   auto& last = last_stamps_[static_cast<std::size_t>(role)];
   if (last && stamp <= *last) ++counts[std::string(name_of(role)) + "_stamp_not_increasing"];
   last = stamp;  // so that one stamp far ahead counts once
-  missing_[static_cast<std::size_t>(role)].add(stamp, now_.usual.value_or(now_.recorded),
-                                               period_of(role));
+  missing(role).add(stamp, heard_at(), period_of(role));
   out.push_back({now_.recorded + plan.arrival_shift, std::move(measurement)});
 }
 
 void DeliveryMaker::deliver(std::optional<LegOdometrySample> sample, std::vector<Delivery>& out) {
-  for (; left_out_ < legs_left_out(); ++left_out_) {
-    missing_[static_cast<std::size_t>(Role::kLegs)].add_unusable();
-  }
+  for (; left_out_ < legs_left_out(); ++left_out_) missing(Role::kLegs).add_unusable(heard_at());
   if (!sample) return;
   const bool finite = sample->linear_velocity.allFinite() && sample->angular_velocity.allFinite() &&
                       sample->T_odom_base.translation.allFinite();
@@ -50,29 +48,32 @@ void DeliveryMaker::deliver(std::optional<LegOdometrySample> sample, std::vector
   deliver(Role::kLegs, *std::move(sample), stamp, out);
 }
 
-/// Samples of legs that came without contacts, gyro or rates.
+/// Samples of legs without contacts, gyro or rates, or of a robot that is carried or lies.
 int DeliveryMaker::legs_left_out() const {
   int all = 0;
-  for (const char* what : {"legs_without_contacts", "legs_incomplete"}) {
+  for (const char* what : {"legs_without_contacts", "legs_incomplete", "legs_in_the_air"}) {
     if (const auto found = counts.find(what); found != counts.end()) all += found->second;
   }
   return all;
 }
 
-void DeliveryMaker::malformed(Role role) {
+void DeliveryMaker::malformed(Role role, Time recorded) {
   ++counts[std::string(name_of(role)) + "_malformed"];
+  missing(role).add_unusable(recorded);
   // Of legs by joints, the periods are those of the joints.
-  const Role counted = role == Role::kJoints && legs_by_joints() ? Role::kLegs : role;
-  missing_[static_cast<std::size_t>(counted)].add_unusable();
+  if (role == Role::kJoints && legs_by_joints()) missing(Role::kLegs).add_unusable(recorded);
 }
 
-void DeliveryMaker::leave_out(const Channel& channel) {
+void DeliveryMaker::leave_out(const Channel& channel, Time recorded) {
   for (std::size_t i = 0; i < kRoleCount; ++i) {
-    if (channel.serves[i]) missing_[i].add_unusable();
+    if (channel.serves[i]) missing_[i].add_unusable(recorded);
   }
-  if (channel.is(Role::kJoints) && legs_by_joints()) {
-    missing_[static_cast<std::size_t>(Role::kLegs)].add_unusable();
-  }
+  if (channel.is(Role::kJoints) && legs_by_joints()) missing(Role::kLegs).add_unusable(recorded);
+}
+
+/// When the current message was recorded, without what the recorder was late or held it for.
+Time DeliveryMaker::heard_at() const {
+  return std::min(now_.usual.value_or(now_.recorded), plan.start + now_.position);
 }
 
 /// Warns where the clouds come in another frame than the first ones.
@@ -117,14 +118,12 @@ std::optional<LidarScan> DeliveryMaker::read_scan(const PointTable& table) {
 
 void DeliveryMaker::take_cloud(const MessageView& view, std::vector<Delivery>& out) {
   auto table = point_table(view);
-  if (!table) return malformed(Role::kLidar);
+  if (!table) return malformed(Role::kLidar, heard_at());
   watch_frame(view);
   table->stamp = stamp_of(Role::kLidar, table->stamp, 0.0);
   watch_repeats(*table);
   auto read = read_scan(*table);
-  if (!read && plan.cloud.parts.count == 1) {
-    missing_[static_cast<std::size_t>(Role::kLidar)].add_unusable();
-  }
+  if (!read && plan.cloud.parts.count == 1) missing(Role::kLidar).add_unusable(heard_at());
   if (!read) return;
   auto scan = std::make_shared<LidarScan>(std::move(*read));
   const Duration delay = from_seconds(config_.lidar_delay);
@@ -136,7 +135,7 @@ void DeliveryMaker::take_cloud(const MessageView& view, std::vector<Delivery>& o
 
 void DeliveryMaker::take_imu(const MessageView& view, std::vector<Delivery>& out) {
   const auto recorded = imu_at(view, now_.taken(), counts);
-  if (!recorded) return malformed(Role::kImu);
+  if (!recorded) return malformed(Role::kImu, heard_at());
   ImuSample sample = *recorded;
   sample.stamp = stamp_of(Role::kImu, recorded->stamp, config_.imu_delay);
   if (plan.force_scale != 1.0) sample.specific_force *= plan.force_scale;
@@ -154,7 +153,7 @@ void DeliveryMaker::take_legs(const Channel& channel, const MessageView& view,
   if (plan.legs.source == LegSource::kNone) return;
   const bool twist = plan.legs.source == LegSource::kTwist;
   auto sample = twist ? twist_at(view, now_.taken()) : odometry_at(view, counts);
-  if (!sample) return malformed(Role::kLegs);
+  if (!sample) return malformed(Role::kLegs, heard_at());
   sample->stamp = stamp_of(Role::kLegs, sample->stamp, config_.leg_delay);
   deliver(twist ? legs_.add_twist(*sample) : legs_.add_odometry(*sample, counts), out);
 }
@@ -162,22 +161,23 @@ void DeliveryMaker::take_legs(const Channel& channel, const MessageView& view,
 void DeliveryMaker::take_feet(const Channel& channel, const MessageView& view,
                               std::vector<Delivery>& out) {
   auto feet = channel.state == nullptr ? std::nullopt : feet_at(view, now_.taken(), *channel.state);
-  if (!feet) return malformed(Role::kLegs);
+  if (!feet) return malformed(Role::kLegs, heard_at());
   feet->stamp = stamp_of(Role::kLegs, feet->stamp, config_.leg_delay);
   deliver(legs_.add_feet(*feet, counts), out);
 }
 
 void DeliveryMaker::take_joints(const MessageView& view, std::vector<Delivery>& out) {
   auto joints = joints_at(view, now_.taken(), plan.joints);
-  if (!joints) return malformed(Role::kJoints);
+  if (!joints) return malformed(Role::kJoints, heard_at());
   joints->stamp = stamp_of(Role::kJoints, joints->stamp, config_.leg_delay);
+  missing(Role::kJoints).add(joints->stamp, heard_at(), period_of(Role::kJoints));
   deliver(legs_.add_joints(std::move(*joints), counts), out);
   while (auto more = legs_.next(counts)) deliver(std::move(more), out);
 }
 
 void DeliveryMaker::take_contacts(const MessageView& view, std::vector<Delivery>& out) {
   const auto loads = loads_at(view, plan.contacts);
-  if (!loads) return malformed(Role::kContacts);
+  if (!loads) return malformed(Role::kContacts, heard_at());
   // Without a stamp they are as old as joints that arrive with them.
   const Duration age =
       now_.sampled ? 0 : plan.latency[static_cast<std::size_t>(Role::kJoints)].value_or(0);
@@ -188,6 +188,7 @@ void DeliveryMaker::take_contacts(const MessageView& view, std::vector<Delivery>
   const ContactReading contacts = {stamp_of(Role::kContacts, stamp, config_.leg_delay),
                                    contact_detector_.detect(*loads),
                                    forces_at(view, plan.contacts)};
+  missing(Role::kContacts).add(contacts.stamp, heard_at(), period_of(Role::kContacts));
   deliver(legs_.add_contacts(contacts, counts), out);
   while (auto more = legs_.next(counts)) deliver(std::move(more), out);
 }
@@ -198,7 +199,7 @@ void DeliveryMaker::take_truth(const MessageView& view) {
   if (!pose) pose = message_pose(view, "transform", counts);
   const auto point = pose ? std::nullopt : vector_at(view, "point");
   if (point) pose = Pose{Eigen::Quaterniond::Identity(), *point};
-  if (!pose) return malformed(Role::kTruth);
+  if (!pose) return malformed(Role::kTruth, heard_at());
   const Time stamp = stamp_of(Role::kTruth, header_stamp(view, now_.recorded), 0.0);
   if (!pose->translation.allFinite()) {
     ++counts["truth_not_finite"];
@@ -249,24 +250,51 @@ void DeliveryMaker::take(const Channel& channel, const MessageView& view, const 
 /// Of the messages of a sensor; 0: not known.
 Duration DeliveryMaker::period_of(Role role) const {
   if (role == Role::kLidar) return plan.cloud.spacing * plan.cloud.parts.count;
+  if (role == Role::kJoints) return plan.joint_period;
+  if (role == Role::kContacts) return plan.contact_period;
   const auto& rate = role == Role::kImu ? plan.setup.imu_rate_hz : plan.setup.leg_rate_hz;
   return rate && *rate > 0.0 ? from_seconds(1.0 / *rate) : 0;
 }
 
+/// Whose messages the role's are.
+Role DeliveryMaker::source_of(Role role) const {
+  return role == Role::kLegs && legs_by_joints() ? Role::kJoints : role;
+}
+
 /// Warns of many messages that were not recorded.
 void DeliveryMaker::warn_of_missing(Role role) {
-  const MissingMessages& each = missing_[static_cast<std::size_t>(role)];
-  const auto lost = many_missing(role, each);
+  const auto lost = many_missing(role, missing(role));
   if (!lost) return;
   counts[fmt::format("{}_messages_missing", name_of(role))] = static_cast<int>(*lost);
-  const TopicsConfig& topics = plan.setup.topics;
-  const bool by_joints = role == Role::kLegs && legs_by_joints();
-  plan.setup.warnings.push_back(warning_of_missing(
-      role, by_joints ? topics.joint_states : topic_of(topics, role), *lost, each));
+  plan.setup.warnings.push_back(
+      warning_of_missing(role, topic_of(plan.setup.topics, source_of(role)), *lost, missing(role)));
+}
+
+/// Warns of a sensor that was heard long after the first one, or not until the end.
+void DeliveryMaker::warn_of_absence(Role role, Time begin, Time end) {
+  const auto& heard = missing(source_of(role)).heard();
+  if (!heard || period_of(role) <= 0) return;
+  const std::string& topic = topic_of(plan.setup.topics, source_of(role));
+  const auto warn = [&](bool late, Duration absence) {
+    if (absence <= MissingMessages::kLong) return;
+    plan.setup.warnings.push_back(warning_of_absence(role, topic, late, absence));
+  };
+  warn(true, heard->first - begin);
+  warn(false, end - heard->second);
 }
 
 void DeliveryMaker::finish() {
-  for (const Role role : {Role::kImu, Role::kLidar, Role::kLegs}) warn_of_missing(role);
+  constexpr auto kSensors =
+      std::to_array({Role::kImu, Role::kLidar, Role::kLegs, Role::kJoints, Role::kContacts});
+  Time begin = std::numeric_limits<Time>::max(), end = std::numeric_limits<Time>::min();
+  for (const Role role : kSensors) {
+    warn_of_missing(role);
+    const auto& heard = missing(role).heard();
+    if (!heard) continue;
+    begin = std::min(begin, heard->first);
+    end = std::max(end, heard->second);
+  }
+  for (const Role role : kSensors) warn_of_absence(role, begin, end);
   auto& warnings = plan.setup.warnings;
   for (ReadingWarning each : legs_.warnings()) {
     // The start may have shown it already.

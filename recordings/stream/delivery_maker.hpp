@@ -38,9 +38,9 @@ class DeliveryMaker {
   void take(const Channel& channel, const MessageView& view, const MessageTimes& times,
             std::vector<Delivery>& out);
   /// Counts a message that contradicts its definition.
-  void malformed(Role role);
+  void malformed(Role role, Time recorded);
   /// Counts a message of which nothing is read as one that came.
-  void leave_out(const Channel& channel);
+  void leave_out(const Channel& channel, Time recorded);
   /// Warns of what the whole recording tells.
   void finish();
 
@@ -67,7 +67,11 @@ class DeliveryMaker {
   Duration period_of(Role role) const;
   int legs_left_out() const;
   bool legs_by_joints() const { return plan.setup.topics.leg_odometry.empty(); }
+  Time heard_at() const;
+  MissingMessages& missing(Role role) { return missing_[static_cast<std::size_t>(role)]; }
+  Role source_of(Role role) const;
   void warn_of_missing(Role role);
+  void warn_of_absence(Role role, Time begin, Time end);
 
   RecordingConfig config_;
   MessageTimes now_;  ///< of the current message

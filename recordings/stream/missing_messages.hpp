@@ -4,21 +4,28 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "core/time.hpp"
 
 namespace aims {
 
-/// Counts the messages of a topic that did not come, by gaps of up to an hour in its stamps.
+/// Counts the messages of a topic that did not come, by gaps of up to an hour in its stamps; and
+/// notes when it was heard.
 class MissingMessages {
  public:
   static constexpr Duration kLong = 10 * kSecond;  ///< of gaps that are named
 
   void add(Time stamp, Time recorded, Duration period) {
+    hear(recorded);
+    const bool first = received_++ == 0;
+    // Behind the newest one they are of a second publisher, or late; many, and the clock was set.
+    if (!first && stamp <= stamp_ && ++behind_ < kSetBack) return;
     const Duration step = stamp - stamp_, waited = recorded - recorded_;
     const std::int64_t unusable = std::exchange(unusable_, 0);
-    const bool first = received_++ == 0;
+    const Duration silence = std::exchange(longest_wait_, 0);
+    behind_ = 0;
     stamp_ = stamp;
     recorded_ = recorded;
     // Where stamps alone go on, it is no loss; after hours a clock was set, or all began anew.
@@ -32,12 +39,17 @@ class MissingMessages {
     if (periods <= kGap || came == gap) return;
     ++gaps_;
     in_gaps_ += gap - came;
-    if (step > kLong) in_long_gaps_ += gap - came;
-    longest_ = std::max(longest_, step);
+    // Of which nothing is read came in it: it is no longer than the longest time without any.
+    const Duration pause = unusable > 0 ? std::min(step, silence) : step;
+    if (pause > kLong) in_long_gaps_ += gap - came;
+    longest_ = std::max(longest_, pause);
   }
 
   /// A message came, but there is nothing in it to read: it has another count.
-  void add_unusable() { ++unusable_; }
+  void add_unusable(Time recorded) {
+    hear(recorded);
+    ++unusable_;
+  }
 
   /// Short steps make up for long ones of messages that jitter.
   std::int64_t count() const {
@@ -51,11 +63,24 @@ class MissingMessages {
   std::int64_t gaps() const { return gaps_; }
   Duration longest() const { return longest_; }
 
+  /// When the first and the last message of any kind were recorded; nothing: there is none.
+  const std::optional<std::pair<Time, Time>>& heard() const { return heard_; }
+
  private:
   static constexpr double kGap = 1.5;  ///< periods
+  static constexpr int kSetBack = 100;
   static constexpr Duration kLongest = 3600 * kSecond;
 
-  Time stamp_ = 0, recorded_ = 0;
+  void hear(Time recorded) {
+    if (!heard_) heard_ = {recorded, recorded};
+    longest_wait_ = std::max(longest_wait_, recorded - heard_->second);
+    heard_->second = std::max(heard_->second, recorded);
+  }
+
+  Time stamp_ = 0, recorded_ = 0;  ///< of the newest message that was read
+  int behind_ = 0;                 ///< messages since then
+  std::optional<std::pair<Time, Time>> heard_;
+  Duration longest_wait_ = 0;  ///< between messages of any kind since then
   std::int64_t received_ = 0, unusable_ = 0, steps_ = 0, gaps_ = 0;
   double periods_ = 0.0, in_gaps_ = 0.0, in_long_gaps_ = 0.0;
   Duration longest_ = 0;

@@ -42,6 +42,8 @@ struct RecordingPlan {
   std::array<bool, kRoleCount> stamped_by_record{};  ///< without stamps: record times are used
   std::string lidar_frame;                           ///< of the first clouds; empty: none
   RecordedFrames frames;                             ///< for a cloud in another frame than they
+  /// Of topics of joints and contacts beside others of legs; 0: there is none.
+  Duration joint_period = 0, contact_period = 0;
 };
 
 /// The configured delay of the stamps that serve a role; 0 for the truth [s].

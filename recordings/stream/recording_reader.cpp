@@ -225,10 +225,10 @@ void RecordingReader::Impl::receive(const BagMessage& given, std::vector<Deliver
   position = std::max(position, record_time - plan.start);
   if (unset) {
     ++counts["stamp_not_set"];
-    maker.leave_out(*channel);
+    maker.leave_out(*channel, record_time);
   }
   for (std::size_t i = 0; i < kRoleCount && !view; ++i) {
-    if (channel->serves[i]) maker.malformed(static_cast<Role>(i));
+    if (channel->serves[i]) maker.malformed(static_cast<Role>(i), record_time);
   }
   if (!readable || hold(message, *channel, *view)) return;
   maker.take(*channel, *view, {record_time, message.sampled, leapt, position, usual}, out);
@@ -265,6 +265,8 @@ Result<RecordingReader> RecordingReader::open_source(std::unique_ptr<MessageSour
   if (!topics) return tl::unexpected(topics.error());
   auto channels = RecordingChannels::create(name, bag->connections(), *topics);
   if (!channels) return tl::unexpected(channels.error());
+  const auto doubled = doubled_topics(*bag);
+  if (!doubled) return tl::unexpected(doubled.error());
   DecidedStart start(*bag);
   const bool as_live = config.as_live && is_of_live_estimate(*bag);
   if (as_live) {
@@ -283,6 +285,9 @@ Result<RecordingReader> RecordingReader::open_source(std::unique_ptr<MessageSour
     plan = plan_recording(*bag, config, *topics, *channels, std::move(notes));
     if (!plan) return tl::unexpected(plan.error());
     plan->setup.warnings.push_back(warning_of_record_rate(*rate));
+  }
+  for (const std::string& each : *doubled) {
+    plan->setup.warnings.push_back(warning_of_publishers(each));
   }
   bag->select(channels->topics());
   bag->rewind();

@@ -161,6 +161,27 @@ void RecordingSurvey::warn_of_slow_legs(const std::optional<double>& rate) {
                           *rate));
 }
 
+/// Joints and contacts that are used beside other legs, in messages of their own: they can pause
+/// alone.
+void RecordingSurvey::watch_joints_and_contacts(RecordingPlan& plan) const {
+  const LegSource source = plan.legs.source;
+  const auto period = [&](Role role) -> Duration {
+    const auto rate = rate_of(role, plan);
+    return rate && *rate > 0.0 ? from_seconds(1.0 / *rate) : 0;
+  };
+  const std::string& joints = topics_.joint_states;
+  const bool own_joints = joints != topics_.imu && joints != topics_.leg_odometry;
+  const bool beside = source == LegSource::kOdometry || source == LegSource::kTwist;
+  if (beside && own_joints && plan.setup.has_joints) plan.joint_period = period(Role::kJoints);
+  const std::string& contacts = topics_.contacts;
+  const bool own_contacts =
+      contacts != topics_.imu && contacts != topics_.leg_odometry && contacts != joints;
+  const bool used = plan.setup.has_joints || source == LegSource::kFeet;
+  if (used && source != LegSource::kNone && own_contacts && !plan.legs.contacts_on_change) {
+    plan.contact_period = period(Role::kContacts);
+  }
+}
+
 void RecordingSurvey::decide_legs(RecordingPlan& plan) {
   const Seen& legs = seen(Role::kLegs);
   warn_of_odometry(legs.type);
@@ -189,6 +210,7 @@ void RecordingSurvey::decide_legs(RecordingPlan& plan) {
   // Samples of feet have no angles.
   plan.setup.has_joints = stream.source != LegSource::kFeet && legs_.has_joints_and_contacts();
   plan.setup.rig.leg_geometry = config_.leg_geometry;
+  watch_joints_and_contacts(plan);
   adopt_rate(plan.setup.leg_rate_hz, "leg odometry", plan.setup.rig.leg_rate_hz);
   if (kinematic || stream.source == LegSource::kFeet) warn_of_slow_legs(plan.setup.leg_rate_hz);
   const double rate = plan.setup.leg_rate_hz.value_or(100.0);

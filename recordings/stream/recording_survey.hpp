@@ -140,6 +140,7 @@ class RecordingSurvey {
   void decide_imu(RecordingPlan& plan);
   void warn_of_odometry(const std::string& type);
   void warn_of_slow_legs(const std::optional<double>& rate);
+  void watch_joints_and_contacts(RecordingPlan& plan) const;
   void decide_legs(RecordingPlan& plan);
   bool is_imu_of_base() const;
   void decide_frames(RecordingPlan& plan);

@@ -12,12 +12,21 @@ namespace {
 constexpr double kFewMissing = 0.02, kFewLegsMissing = 0.1;
 constexpr int kFewGaps = 5;  ///< that are pauses of a sensor
 
+bool is_of_legs(Role role) {
+  return role == Role::kLegs || role == Role::kJoints || role == Role::kContacts;
+}
+
+WarnedSensor sensor_of(Role role) {
+  if (role == Role::kLidar) return WarnedSensor::kLidar;
+  return is_of_legs(role) ? WarnedSensor::kLegs : WarnedSensor::kAny;
+}
+
 }  // namespace
 
 std::optional<double> many_missing(Role role, const MissingMessages& messages) {
   const auto missing = static_cast<double>(messages.count());
   const double all = missing + static_cast<double>(messages.received());
-  const double few = role == Role::kLegs ? kFewLegsMissing : kFewMissing;
+  const double few = is_of_legs(role) ? kFewLegsMissing : kFewMissing;
   const bool pauses = messages.gaps() < kFewGaps && messages.in_long_gaps() == 0;
   if (missing <= few * all || pauses) return std::nullopt;
   return missing;
@@ -32,14 +41,29 @@ ReadingWarning warning_of_missing(Role role, const std::string& topic, double mi
           : fmt::format(", {} of them in gaps of more than {:.0f} s, the longest of {:.1f} s",
                         messages.in_long_gaps(), to_seconds(MissingMessages::kLong),
                         to_seconds(messages.longest()));
-  const WarnedSensor sensor = role == Role::kLidar  ? WarnedSensor::kLidar
-                              : role == Role::kLegs ? WarnedSensor::kLegs
-                                                    : WarnedSensor::kAny;
   return {fmt::format("messages of the {} are missing", name_of(role)),
           fmt::format("{}: {:.0f} of {:.0f} messages are missing, by the gaps in their stamps "
                       "({:.1f} %){}: the network, the recorder or the driver lost them",
                       topic, missing, all, 1e2 * missing / all, in_long_gaps),
-          sensor, WarningKind::kMissingMessages};
+          sensor_of(role), WarningKind::kMissingMessages};
+}
+
+ReadingWarning warning_of_absence(Role role, const std::string& topic, bool late,
+                                  Duration absence) {
+  return {fmt::format("messages of the {} {}", name_of(role), late ? "began late" : "ended early"),
+          fmt::format("{}: the {} message was recorded {:.1f} s {} of another sensor: {}", topic,
+                      late ? "first" : "last", to_seconds(absence),
+                      late ? "after the first one" : "before the last one",
+                      late ? "was its driver started late?" : "has its driver stopped?"),
+          sensor_of(role)};
+}
+
+ReadingWarning warning_of_publishers(const std::string& doubled) {
+  return {doubled,
+          doubled +
+              ", as the live estimate says that recorded it, at least for some time (or one was "
+              "killed): what both sent is mixed, and stamps and record times may go back and forth",
+          WarnedSensor::kAny, WarningKind::kDoubledTopic};
 }
 
 ReadingWarning warning_of_imu_leap(const std::string& imu, const std::string& lidar,

@@ -18,6 +18,13 @@ std::optional<double> many_missing(Role role, const MissingMessages& messages);
 ReadingWarning warning_of_missing(Role role, const std::string& topic, double missing,
                                   const MissingMessages& messages);
 
+/// Of a sensor whose messages begin so long after those of the first one (`late`), or end so long
+/// before those of the last one.
+ReadingWarning warning_of_absence(Role role, const std::string& topic, bool late, Duration absence);
+
+/// `doubled`: "/imu/data has 2 publishers".
+ReadingWarning warning_of_publishers(const std::string& doubled);
+
 /// `leap`: of the stamps of the IMU.
 ReadingWarning warning_of_imu_leap(const std::string& imu, const std::string& lidar, Duration leap);
 

@@ -419,6 +419,11 @@ class LiveEstimate(unittest.TestCase):
         found = next(i for i, state in enumerate(states) if "2 publishers" in state)
         self.assertNotIn("healthy", " ".join(states[found:]), "it does not flicker")
         self.assertIn(b"/lidar/points has 2 publishers", content("twice/aims_d.health.csv"))
+        estimate("twice.mcap", "twice-again", codes=(0, 4))
+        warnings = "\n".join(summary("twice-again")["warnings"])
+        self.assertIn("/imu/data has 2 publishers, as the live estimate says", warnings)
+        self.assertNotIn("clock was set", warnings, "by the recorder")
+        self.assertNotIn("are missing", warnings + live.log(), "whose stamps go back and forth")
 
     def test_fixed_transforms_that_are_sent_once_last_when_the_estimate_starts_anew(self):
         once = altered("once.bag", lambda topic, message, stamp: (message, stamp))
@@ -465,6 +470,23 @@ class LiveEstimate(unittest.TestCase):
         self.assertTrue(told[-1] and not told[2], rows)
         estimate("rear.mcap", "rear-again")
         self.assertEqual(summary("rear")["warnings"], summary("rear-again")["warnings"])
+
+    def test_joints_that_pause_and_a_lidar_that_stops_are_named_at_the_end(self):
+        def paused(topic, message, stamp):
+            seconds = stamp.to_sec()
+            pauses = topic == "/joint_states" and seconds > 3.0 and seconds % 1.0 < 0.4
+            return None if pauses or topic == "/lidar/points" and seconds > 5.0 else (message, stamp)
+
+        live = Live(altered("pauses.bag", paused), "pauses")
+        self.assertEqual(live.finish(), 0, live.log())
+        estimate("pauses.mcap", "pauses-again", codes=(0, 4))
+        warnings = "\n".join(summary("pauses-again")["warnings"])
+        for said in (warnings, live.log()):
+            self.assertRegex(said, r"/joint_states: \d+ of \d+ messages are missing")
+            self.assertRegex(said, r"/lidar/points: the last message was recorded 1[01].\d s before the last one of ")
+        self.assertEqual(summary("pauses")["warnings"], summary("pauses-again")["warnings"])
+        last = content("pauses/aims_d.health.csv").splitlines()[-2]
+        self.assertIn(b"messages of the joints are missing; messages of the lidar ended early", last)
 
     def test_a_killed_subscriber_does_not_keep_the_others_waiting(self):
         for pace in (1, 2):
@@ -616,6 +638,9 @@ class LiveEstimate(unittest.TestCase):
         self.assertFalse(summary("crash")["complete"])
         self.assertGreaterEqual(len(places(live.poses())), summary("crash")["estimators"]["aims_d"]["poses"])
         run(AIMS, "info", "crash.mcap", "--recover")
+        played = ["play", "crash.mcap", "--rate", "100", "--domain", live.domain]
+        run(AIMS, *played, codes=(2,))
+        run(AIMS, *played, "--recover")
 
     def test_a_broken_participant_is_counted_and_harms_nothing_else(self):
         live = Live("long.bag", "garbage", pace=1)

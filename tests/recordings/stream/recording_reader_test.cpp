@@ -13,6 +13,7 @@
 
 #include "recordings/inspection/bag_check.hpp"
 #include "recordings/inspection/bag_info.hpp"
+#include "recordings/messages/message_encoding.hpp"
 #include "recordings/messages/message_types.hpp"
 #include "tests/recordings/stream/recorded_deliveries.hpp"
 #include "tests/recordings/stream/robot_recording.hpp"
@@ -785,6 +786,59 @@ TEST_F(RecordingReaderTest, CloudsOfWhichNothingIsReadAreNotMissing) {
   EXPECT_EQ(read.counts.at("cloud_empty"), 10);
   EXPECT_EQ(read.counts.at("lidar_messages_missing"), 10);
   EXPECT_TRUE(read.noted("/points: 10 of 100 messages are missing"));
+}
+
+TEST_F(RecordingReaderTest, CloudsOfWhichNothingIsReadMakeNoPauseLonger) {
+  // In 60 s the LiDAR is silent for 4 s; for 9 s before it, its clouds are malformed.
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  robot.add_imu(kStart, 3000);
+  for (int k = 0; k < 600; ++k) {
+    if ((k >= 290 && k < 330) || (k >= 420 && k < 540)) continue;
+    const Time stamp = kStart + k * 100 * kMillisecond;
+    RawCloud cloud = RawCloud::of(stamp, {{1, 2, 0, 0}, {2, 1, 1, 0.09F}});
+    if (k >= 200 && k < 290) cloud.point_step = 0;
+    robot.add_cloud(cloud, stamp + 101 * kMillisecond);
+  }
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  EXPECT_EQ(read.counts.at("lidar_malformed"), 90);
+  EXPECT_TRUE(
+      read.noted("/points: 160 of 600 messages are missing, by the gaps in their stamps "
+                 "(26.7 %), 120 of them in gaps of more than 10 s, the longest of 12.1 s"));
+}
+
+TEST_F(RecordingReaderTest, OfTwoPublishersNoneIsMissing) {
+  // The second one sends what the first one sent eight seconds before.
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  for (int k = 0; k < 3000; ++k) {
+    const Time stamp = kStart + k * 20 * kMillisecond;
+    robot.add_imu(stamp, 1);
+    if (k % 5 != 0) continue;
+    const auto add = [&](Time of) {
+      robot.add_cloud(RawCloud::of(of, {{1, 2, 0, 0}, {2, 1, 1, 0.09F}}),
+                      stamp + 101 * kMillisecond);
+    };
+    add(stamp);
+    if (k > 1000) add(stamp - 8 * kSecond);
+  }
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  EXPECT_FALSE(read.counts.contains("lidar_messages_missing"));
+}
+
+TEST_F(RecordingReaderTest, TopicsWithTwoPublishersAreNamedWhereALiveEstimateRecordedThem) {
+  RobotRecording robot(bag());
+  robot.add_transforms(kMounted);
+  robot.add_imu(kStart, 500);
+  robot.add("/aims/doubled", string_type(), kStart + kSecond,
+            string_message("/imu has 2 publishers"));
+  robot.add_clouds(kStart, 100);
+  robot.close();
+  const Recording read = test::read_recording(bag());
+  EXPECT_TRUE(read.noted("/imu has 2 publishers, as the live estimate says that recorded it"));
+  EXPECT_EQ(test::imu_of(read.deliveries).size(), 500U);
 }
 
 // The survey sees the first 100 clouds.
