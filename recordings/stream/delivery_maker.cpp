@@ -265,6 +265,14 @@ Role DeliveryMaker::source_of(Role role) const {
 void DeliveryMaker::warn_of_missing(Role role) {
   const auto lost = many_missing(role, missing(role));
   if (!lost) return;
+  // Joints and contacts that are missing as the legs are need no word of their own.
+  constexpr double kAlike = 0.05;
+  const bool beside = role == Role::kJoints || role == Role::kContacts;
+  const MissingMessages& legs = missing(Role::kLegs);
+  if (beside && many_missing(Role::kLegs, legs) &&
+      missing(role).fraction() < legs.fraction() + kAlike) {
+    return;
+  }
   counts[fmt::format("{}_messages_missing", name_of(role))] = static_cast<int>(*lost);
   plan.setup.warnings.push_back(
       warning_of_missing(role, topic_of(plan.setup.topics, source_of(role)), *lost, missing(role)));
@@ -274,6 +282,9 @@ void DeliveryMaker::warn_of_missing(Role role) {
 void DeliveryMaker::warn_of_absence(Role role, Time begin, Time end) {
   const auto& heard = missing(source_of(role)).heard();
   if (!heard || period_of(role) <= 0) return;
+  const auto& legs = missing(source_of(Role::kLegs)).heard();
+  const bool beside = legs && (role == Role::kJoints || role == Role::kContacts);
+  if (beside) begin = std::max(begin, legs->first), end = std::min(end, legs->second);
   const std::string& topic = topic_of(plan.setup.topics, source_of(role));
   const auto warn = [&](bool late, Duration absence) {
     if (absence <= MissingMessages::kLong) return;

@@ -60,6 +60,11 @@ class MissingMessages {
     return std::min<std::int64_t>(count(), std::llround(in_long_gaps_));
   }
   std::int64_t received() const { return received_; }
+  /// Of all messages that were sent, those that are missing.
+  double fraction() const {
+    const auto missing = static_cast<double>(count());
+    return missing / std::max(1.0, missing + static_cast<double>(received_));
+  }
   std::int64_t gaps() const { return gaps_; }
   Duration longest() const { return longest_; }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "recordings/bag/wrapped_source.hpp"
 #include "recordings/source/recording_file.hpp"
@@ -21,23 +22,27 @@ namespace {
 
 using test::kStart;
 
-/// A recording without the messages of a topic in some time since its start.
+using Topics = std::vector<std::string_view>;
+
+/// A recording without the messages of topics in some time since its start.
 class Paused final : public WrappedSource {
  public:
-  Paused(std::unique_ptr<MessageSource> recording, std::string topic, Duration from, Duration to)
-      : WrappedSource(std::move(recording)), topic_(std::move(topic)), from_(from), to_(to) {}
+  Paused(std::unique_ptr<MessageSource> recording, Topics topics, Duration from, Duration to)
+      : WrappedSource(std::move(recording)), topics_(std::move(topics)), from_(from), to_(to) {}
 
   Result<std::optional<BagMessage>> next() override {
     for (;;) {
       auto message = read();
-      if (!message || !*message || (*message)->connection->topic != topic_) return message;
+      if (!message || !*message) return message;
+      const std::string& topic = (*message)->connection->topic;
+      if (std::ranges::find(topics_, topic) == topics_.end()) return message;
       const Duration since = (*message)->record_time - kStart;
       if (since < from_ || since >= to_) return message;
     }
   }
 
  private:
-  std::string topic_;
+  Topics topics_;
   Duration from_, to_;
 };
 
@@ -77,16 +82,15 @@ class PausedTopics : public test::RecordingTest {
     ASSERT_TRUE(writer->close());
   }
 
-  /// The warnings of the end, one a line, where a topic pauses.
-  std::string warnings(std::string_view topic, double from, double to, bool odometry = true) {
+  /// The warnings of the end, one a line, where topics pause.
+  std::string warnings(const Topics& topics, double from, double to, bool odometry = true) {
     auto source = open_recording(bag());
     EXPECT_TRUE(source);
     RecordingConfig config;
     if (!odometry) config.topics.leg_odometry = "none";
-    auto reader =
-        RecordingReader::open(std::make_unique<Paused>(std::move(*source), std::string(topic),
-                                                       from_seconds(from), from_seconds(to)),
-                              config);
+    auto reader = RecordingReader::open(
+        std::make_unique<Paused>(std::move(*source), topics, from_seconds(from), from_seconds(to)),
+        config);
     EXPECT_TRUE(reader) << reader.error().message;
     const std::size_t before = reader->setup().warnings.size();
     EXPECT_TRUE(test::read_all(*reader));
@@ -100,17 +104,28 @@ class PausedTopics : public test::RecordingTest {
 
 TEST_F(PausedTopics, JointsAndContactsBesideLegOdometryAreNamed) {
   record();
-  EXPECT_EQ(warnings(kImuTopic, 0.0, 0.0), "");
+  EXPECT_EQ(warnings({kImuTopic}, 0.0, 0.0), "");
   for (const std::string_view topic : {kJointStatesTopic, kFootContactsTopic}) {
-    EXPECT_TRUE(warnings(topic, 20.0, 32.0)
+    EXPECT_TRUE(warnings({topic}, 20.0, 32.0)
                     .starts_with(std::string(topic) + ": 1200 of 4000 messages are missing, by the "
                                                       "gaps in their stamps (30.0 %), 1200 of "))
-        << warnings(topic, 20.0, 32.0);
-    EXPECT_EQ(warnings(topic, 20.0, 29.0), "") << "a short pause";
+        << warnings({topic}, 20.0, 32.0);
+    EXPECT_EQ(warnings({topic}, 20.0, 29.0), "") << "a short pause";
   }
-  EXPECT_TRUE(warnings(kFootContactsTopic, 20.0, 32.0, false)
+  EXPECT_TRUE(warnings({kFootContactsTopic}, 20.0, 32.0, false)
                   .starts_with(std::string(kFootContactsTopic) + ": 1200 of 4000 messages"))
       << "beside joints";
+}
+
+TEST_F(PausedTopics, OfLegsOfWhichAllPausesOneTopicIsNamed) {
+  record();
+  const auto all = [this](double from, double to) {
+    return warnings({kLegOdometryTopic, kJointStatesTopic, kFootContactsTopic}, from, to);
+  };
+  for (const std::string& found : {all(20.0, 32.0), all(25.0, 100.0)}) {
+    EXPECT_TRUE(found.starts_with(std::string(kLegOdometryTopic) + ": ")) << found;
+    EXPECT_EQ(std::ranges::count(found, '\n'), 1) << found;
+  }
 }
 
 TEST_F(PausedTopics, WhatStartsLateOrStopsIsNamed) {
@@ -118,20 +133,20 @@ TEST_F(PausedTopics, WhatStartsLateOrStopsIsNamed) {
   for (const std::string_view topic :
        {kLidarTopic, kLegOdometryTopic, kJointStatesTopic, kFootContactsTopic}) {
     const std::string name(topic);
-    EXPECT_NE(warnings(topic, 25.01, 100.0)
+    EXPECT_NE(warnings({topic}, 25.01, 100.0)
                   .find(name + ": the last message was recorded 15.0 s before the last one of "
                                "another sensor: has its driver stopped?"),
               std::string::npos)
         << name << "\n"
-        << warnings(topic, 25.01, 100.0);
-    EXPECT_EQ(warnings(topic, 32.0, 100.0), "") << name;
+        << warnings({topic}, 25.01, 100.0);
+    EXPECT_EQ(warnings({topic}, 32.0, 100.0), "") << name;
   }
   EXPECT_EQ(
-      warnings(kLidarTopic, 0.0, 15.0),
+      warnings({kLidarTopic}, 0.0, 15.0),
       std::string(kLidarTopic) +
           ": the first message was recorded 15.0 s after the first one of another sensor: was "
           "its driver started late?\n");
-  EXPECT_EQ(warnings(kLidarTopic, 0.0, 9.0), "");
+  EXPECT_EQ(warnings({kLidarTopic}, 0.0, 9.0), "");
 }
 
 }  // namespace
