@@ -19,9 +19,10 @@ void record_covariance(const Belief& belief, const Eigen::Matrix3d& others, doub
                        ScanDiagnostics& diagnostics) {
   using E = ErrorState;
   const Eigen::Matrix3d R = belief.state.rotation.toRotationMatrix();
-  const Eigen::Matrix3d position = block(belief.covariance, E::kPosition, E::kPosition) + others;
+  const ErrorMatrix P = stated_covariance(belief);
+  const Eigen::Matrix3d position = block(P, E::kPosition, E::kPosition) + others;
   diagnostics.covariance.position = R.transpose() * position * R;
-  diagnostics.covariance.rotation = block(belief.covariance, E::kRotation, E::kRotation);
+  diagnostics.covariance.rotation = block(P, E::kRotation, E::kRotation);
   diagnostics.covariance.rotation.diagonal().array() += sigma_attitude * sigma_attitude;
 }
 

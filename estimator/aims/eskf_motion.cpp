@@ -22,19 +22,20 @@ std::optional<MotionEstimate> EskfEstimator::motion(Time until) const {
   }
   if (!segments.empty()) {
     // One step for the covariance: over a tenth of a second it hardly depends on the steps.
-    belief.covariance = propagate({belief_.state, belief_.covariance}, last,
-                                  to_seconds(motion.stamp - time_), config_.imu)
-                            .covariance;
+    const Belief after = propagate(belief_, last, to_seconds(motion.stamp - time_), config_.imu);
+    belief.covariance = after.covariance;
+    belief.excess = after.excess;
   }
+  const ErrorMatrix P = stated_covariance(belief);
   motion.T_odom_body = belief.state.T_odom_body();
   motion.velocity = belief.state.velocity;
   const Eigen::Vector3d rate =
       segments.empty() ? imu.angular_velocity_at(motion.stamp).value_or(belief.state.gyro_bias)
                        : last.angular_velocity;
   motion.angular_velocity = rate - belief.state.gyro_bias;
-  motion.covariance = belief.covariance.topLeftCorner<9, 9>();
+  motion.covariance = P.topLeftCorner<9, 9>();
   const double white = imu.noise().density().gyro;
-  motion.rate_covariance = block(belief.covariance, ErrorState::kGyroBias, ErrorState::kGyroBias) +
+  motion.rate_covariance = block(P, ErrorState::kGyroBias, ErrorState::kGyroBias) +
                            white * white * rig_.imu_rate_hz * Eigen::Matrix3d::Identity();
   return motion;
 }

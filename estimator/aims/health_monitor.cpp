@@ -51,8 +51,8 @@ struct HealthMonitor::Findings {
 };
 
 HealthEstimate health_estimate(const Belief& belief, const Eigen::Matrix3d& others) {
-  const Eigen::Matrix3d P =
-      block(belief.covariance, ErrorState::kPosition, ErrorState::kPosition) + others;
+  const ErrorMatrix stated = stated_covariance(belief);
+  const Eigen::Matrix3d P = block(stated, ErrorState::kPosition, ErrorState::kPosition) + others;
   return {belief.state.position, belief.state.velocity.norm(),
           std::sqrt(std::max(0.0, P.diagonal().maxCoeff()))};
 }

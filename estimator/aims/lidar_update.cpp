@@ -97,6 +97,9 @@ void record_localizability(const HalvesInformation& scan, const Matrix6& real,
   diagnostics.weak_information = std::max(of_real.eigenvalues()(0), 0.0);
 }
 
+/// The information that a scan states.
+Matrix6 stated_by(const PoseInformation& scan) { return scan.stated.value_or(scan.matrix); }
+
 /// Whether the pose changed by more than `rotation` [rad] or `position` [m].
 bool moved(const Pose& pose, const Pose& since, double rotation, double position) {
   return pose.rotation.angularDistance(since.rotation) > rotation ||
@@ -145,11 +148,14 @@ Linearization LidarUpdate::to_fuse(ScanPart part, double gamma, const NominalSta
   if (real && measures_legs_) {
     Matrix6 kept = Matrix6::Identity();
     kept.bottomRightCorner<3, 3>() = across_the_way(state);
-    pose = {kept * pose.matrix * kept, kept * pose.vector};
+    if (pose.stated) pose.stated = kept * *pose.stated * kept;
+    pose.matrix = kept * pose.matrix * kept;
+    pose.vector = kept * pose.vector;
   }
-  return {scan_measurement(gamma * pose.matrix, gamma * pose.vector, calibration_,
-                           state.rotation.toRotationMatrix()),
-          real ? scan_mask(state) : GainMask{.legs = !holds_legs_}};
+  PoseMeasurement measurement = scan_measurement(gamma * pose.matrix, gamma * pose.vector,
+                                                 calibration_, state.rotation.toRotationMatrix());
+  if (pose.stated) measurement.stated = gamma * *pose.stated;
+  return {measurement, real ? scan_mask(state) : GainMask{.legs = !holds_legs_}};
 }
 
 GainMask LidarUpdate::scan_mask(const NominalState& state) const {
@@ -354,10 +360,10 @@ Belief LidarUpdate::update(const Belief& predicted, std::span<const Eigen::Vecto
     matched_at_ = at;
     diagnostics.iterations = trial.iterations;
     diagnostics.converged = trial.converged;
-    record_localizability(
-        scan_.halves,
-        cross_validation_.enabled ? fraction_.applied_to(scan_.halves).matrix : scan_.halves.within,
-        diagnostics);
+    record_localizability(scan_.halves,
+                          cross_validation_.enabled ? stated_by(fraction_.applied_to(scan_.halves))
+                                                    : scan_.halves.within,
+                          diagnostics);
     if (leg_free != nullptr) diagnostics.C_IL_imu = leg_free_consistency(*leg_free, at);
     assess(predicted, at, diagnostics);
     const Linearization weighed = to_fuse(part_, weights_.gamma_lidar(), at);

@@ -149,7 +149,6 @@ void CrossValidatedInformation::update_fraction(double free_tilt) {
 }
 
 PoseInformation CrossValidatedInformation::applied_to(const HalvesInformation& scan) const {
-  if (held_by_uneven_walls()) return {scan.within, scan.within_vector};
   const Eigen::Matrix3d S = position_information(scan.within);
   const Eigen::Vector3d rotation = scan.across_vector.head<3>();
   const Eigen::Vector3d position =
@@ -164,6 +163,7 @@ PoseInformation CrossValidatedInformation::applied_to(const HalvesInformation& s
   applied.matrix.bottomRightCorner<3, 3>() += kept * within * kept.transpose() - S;
   applied.vector.tail<3>() = coupling(scan.within).transpose() * rotation +
                              dual_axes_ * gain.asDiagonal() * axes_.transpose() * position;
+  if (held_by_uneven_walls()) return {scan.within, scan.within_vector, applied.matrix};
   return applied;
 }
 

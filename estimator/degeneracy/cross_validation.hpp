@@ -33,6 +33,8 @@ struct HalvesInformation {
 struct PoseInformation {
   Matrix6 matrix = Matrix6::Zero();
   Vector6 vector = Vector6::Zero();
+  /// What it states, where `matrix` is for the gain alone; none: `matrix`.
+  std::optional<Matrix6> stated = std::nullopt;
 };
 
 /// A direction is constrained if the planes face it by more than this angle (root mean square over

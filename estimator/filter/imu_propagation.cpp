@@ -165,6 +165,10 @@ Belief propagate(const Belief& belief, const InertialSegment& segment, double dt
   P.topLeftCorner<kMoved, kMoved>() = 0.5 * (corner + corner.transpose());
   P.bottomLeftCorner<kOthers, kMoved>() = P.topRightCorner<kMoved, kOthers>().transpose();
   add_noise(P, config, segment.noise, dt);
+  if (belief.excess) {
+    const ErrorMatrix F = propagation_jacobian(belief.state, segment, dt);
+    next.excess = F * *belief.excess * F.transpose();
+  }
   return next;
 }
 

@@ -37,7 +37,32 @@ ErrorMatrix masked_covariance(const ErrorMatrix& P, const Columns<rows>& PH,
   return covariance_after<rows>(P, PH, masked.lazyProduct(weight), masked);
 }
 
+/// The excess after a correction by the gain K of a measurement with the Jacobian H, without the
+/// reset: (I - K H) E (I - K H)^T.
+template <int rows>
+ErrorMatrix excess_after(const ErrorMatrix& E, const Columns<rows>& gain,
+                         const Eigen::Matrix<double, rows, ErrorState::kSize>& jacobian) {
+  const ErrorMatrix kept = ErrorMatrix::Identity() - gain * jacobian;
+  return kept * E * kept.transpose();
+}
+
+/// What a measurement that states less information leaves beyond the covariance `after`, without
+/// the reset; `stated` is the covariance that the belief stated before.
+ErrorMatrix excess_over(const ErrorMatrix& after, const ErrorMatrix& stated,
+                        const PoseMeasurement& measurement, const GainMask& mask) {
+  const Columns<6> PH = projected<6>(stated, measurement.jacobian);
+  const Matrix6 S = measurement.jacobian.lazyProduct(PH);
+  const Eigen::PartialPivLU<Matrix6> solver(Matrix6::Identity() + *measurement.stated * S);
+  const Matrix6 weight = solver.solve(*measurement.stated);
+  const Matrix6 symmetric = 0.5 * (weight + weight.transpose());
+  return masked_covariance(stated, PH, symmetric, mask) - after;
+}
+
 }  // namespace
+
+ErrorMatrix stated_covariance(const Belief& belief) {
+  return belief.excess ? ErrorMatrix(belief.covariance + *belief.excess) : belief.covariance;
+}
 
 LinearMeasurement moved_to(const LinearMeasurement& measurement, const NominalState& from,
                            const NominalState& to) {
@@ -53,8 +78,14 @@ Belief fuse(const Belief& prior, const LinearMeasurement& measurement, const Gai
   const Eigen::Matrix3d weight =
       (measurement.jacobian.lazyProduct(PH) + measurement.noise).inverse();
   const ErrorVector delta = mask * ErrorVector(-PH * (weight * measurement.residual));
-  return {boxplus(prior.state, delta),
-          reset_covariance(masked_covariance(prior.covariance, PH, weight, mask), delta)};
+  Belief fused{boxplus(prior.state, delta),
+               reset_covariance(masked_covariance(prior.covariance, PH, weight, mask), delta)};
+  if (prior.excess) {
+    const Columns<3> gain = mask * Columns<3>(PH.lazyProduct(weight));
+    fused.excess =
+        reset_covariance(excess_after<3>(*prior.excess, gain, measurement.jacobian), delta);
+  }
+  return fused;
 }
 
 Belief fuse_given_legs(const Belief& prior, const LinearMeasurement& measurement,
@@ -72,8 +103,13 @@ Belief fuse_given_legs(const Belief& prior, const LinearMeasurement& measurement
   const Columns<3> gain = mask * Columns<3>(given.lazyProduct(variance.inverse()));
   const Eigen::Matrix3d stated = measurement.jacobian.lazyProduct(PH) + measurement.noise;
   const ErrorVector delta = -gain * measurement.residual;
-  return {boxplus(prior.state, delta),
-          reset_covariance(covariance_after<3>(P, PH, gain, gain.lazyProduct(stated)), delta)};
+  Belief fused{boxplus(prior.state, delta),
+               reset_covariance(covariance_after<3>(P, PH, gain, gain.lazyProduct(stated)), delta)};
+  if (prior.excess) {
+    fused.excess =
+        reset_covariance(excess_after<3>(*prior.excess, gain, measurement.jacobian), delta);
+  }
+  return fused;
 }
 
 Belief fuse(const Belief& prior, const NominalState& linearization,
@@ -91,8 +127,17 @@ Belief fuse(const Belief& prior, const NominalState& linearization,
   const ErrorVector correction = mask * ErrorVector(-PH * solver.solve(innovation));
   const ErrorVector delta = correction - offset;
   const Matrix6 symmetric = 0.5 * (weight + weight.transpose());
-  return {boxplus(linearization, delta),
-          reset_covariance(masked_covariance(P, PH, symmetric, mask), delta)};
+  const ErrorMatrix after = masked_covariance(P, PH, symmetric, mask);
+  Belief fused{boxplus(linearization, delta), reset_covariance(after, delta)};
+  if (measurement.stated) {
+    const ErrorMatrix stated = reset_covariance(stated_covariance(prior), offset);
+    fused.excess = reset_covariance(excess_over(after, stated, measurement, mask), delta);
+  } else if (prior.excess) {
+    const ErrorMatrix excess = reset_covariance(*prior.excess, offset);
+    const Columns<6> gain = mask * Columns<6>(PH.lazyProduct(symmetric));
+    fused.excess = reset_covariance(excess_after<6>(excess, gain, measurement.jacobian), delta);
+  }
+  return fused;
 }
 
 }  // namespace aims

@@ -10,8 +10,14 @@ namespace aims {
 /// Gaussian belief: nominal state and covariance of its error.
 struct Belief {
   NominalState state;
-  ErrorMatrix covariance = ErrorMatrix::Identity();
+  ErrorMatrix covariance = ErrorMatrix::Identity();  ///< that the gains follow from
+  /// What the covariance of the error is beyond `covariance`, where a measurement counted for more
+  /// than it states (`PoseMeasurement::stated`); none: nothing. It changes no gain.
+  std::optional<ErrorMatrix> excess = std::nullopt;
 };
+
+/// The covariance of the error that the belief states.
+ErrorMatrix stated_covariance(const Belief& belief);
 
 /// A linearized measurement of three rows: residual(x [+] d) ~ residual + jacobian d, zero at the
 /// truth up to `noise`.
@@ -32,6 +38,8 @@ struct PoseMeasurement {
   Matrix6 matrix = Matrix6::Zero();
   Vector6 vector = Vector6::Zero();
   Matrix6xError jacobian = Matrix6xError::Identity();  ///< rotation and position come first
+  /// The information that it states, where `matrix`, from which the gain follows, is more.
+  std::optional<Matrix6> stated = std::nullopt;
 };
 
 /// Which states a measurement corrects (Schmidt-Kalman update): the gain K becomes matrix() K. A

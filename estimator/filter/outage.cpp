@@ -53,6 +53,7 @@ Belief after_outage(const Belief& belief, double duration) {
   block(F, E::kPosition, E::kVelocity).diagonal().setConstant(walked);
   block(F, E::kVelocity, E::kVelocity).diagonal().setConstant(kept);
   after.covariance = F * belief.covariance * F.transpose();
+  if (belief.excess) after.excess = F * *belief.excess * F.transpose();
   const auto widen = [&](E::Block at, double sigma) {
     after.covariance.diagonal().segment<3>(at.offset).array() += squared(sigma);
   };

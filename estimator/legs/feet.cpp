@@ -12,6 +12,9 @@ namespace {
 constexpr Duration kShortestInterval = 4 * kMillisecond;
 constexpr Duration kLongestInterval = 30 * kMillisecond;
 
+/// Angles that stay the same for longer are those of a robot that stands.
+constexpr Duration kLongestRepeat = 100 * kMillisecond;
+
 /// Error of the velocity from one standing foot, per axis [m/s].
 constexpr double kFootSigma = 0.15;
 
@@ -47,7 +50,20 @@ void describe(Fields& f, FeetConfig& c) {
           "docs/decisions.md#each-foot-is-a-measurement"});
 }
 
+bool JointDifference::is_repeat(const JointPacket& reading) {
+  if (reading.angle != angle_) {
+    angle_ = reading.angle;
+    changed_ = reading.stamp;
+  }
+  const Duration unchanged = reading.stamp - changed_;
+  return unchanged > 0 && unchanged <= kLongestRepeat;
+}
+
 std::optional<JointState> JointDifference::update(const JointPacket& reading) {
+  if (is_repeat(reading)) {
+    ++repeats_;
+    return std::nullopt;
+  }
   const auto since = [&](const JointPacket& each) { return reading.stamp - each.stamp; };
   while (!past_.empty() && since(past_.front()) > kLongestInterval) past_.pop_front();
   while (past_.size() > 1 && since(past_[1]) >= kShortestInterval) past_.pop_front();
@@ -55,10 +71,14 @@ std::optional<JointState> JointDifference::update(const JointPacket& reading) {
   if (!past_.empty() && since(past_.front()) >= kShortestInterval) {
     const JointPacket& before = past_.front();
     const double step = to_seconds(since(before));
-    state = {0.5 * (reading.angle + before.angle), (reading.angle - before.angle) / step,
-             (reading.yield - before.yield) / step, (reading.load - before.load) / step,
-             0.5 * step};
+    state = {0.5 * (reading.angle + before.angle),
+             (reading.angle - before.angle) / step,
+             (reading.yield - before.yield) / step,
+             (reading.load - before.load) / step,
+             0.5 * step,
+             repeats_};
   }
+  repeats_ = 0;
   past_.push_back(reading);
   return state;
 }

@@ -37,17 +37,24 @@ struct JointState {
   JointVector yield_rate = JointVector::Zero();  ///< of the yield [m/s]
   LoadShares load_rate = LoadShares::Zero();     ///< [1/s]
   double age = 0.0;                              ///< middle of the interval, before its end [s]
+  int repeats = 0;                               ///< readings sent again since the last new one
 };
 
 /// Differences joint angles: the rates that drivers report are filtered and late by an unknown
-/// time, while the middle of an interval is known.
+/// time, while the middle of an interval is known. Angles that a driver sends again under new
+/// stamps, until it has read its encoders, are no reading: their difference would be zero.
 class JointDifference {
  public:
-  /// Empty at the start and after a gap.
+  /// Empty at the start, after a gap, and for angles that are sent again.
   std::optional<JointState> update(const JointPacket& reading);
 
  private:
-  std::deque<JointPacket> past_;  ///< of the last milliseconds
+  bool is_repeat(const JointPacket& reading);
+
+  std::deque<JointPacket> past_;  ///< new readings of the last milliseconds
+  JointVector angle_ = JointVector::Zero();
+  Time changed_ = 0;  ///< when the angles last changed
+  int repeats_ = 0;   ///< since the last new reading
 };
 
 using FootVelocities = std::array<Eigen::Vector3d, kLegCount>;

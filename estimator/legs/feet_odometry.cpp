@@ -45,6 +45,11 @@ std::optional<JointState> FeetOdometry::joints_of_packet(const LegOdometrySample
       {sample.stamp, angle, yield_of_joints(angle, shares, up, rig_.leg_geometry), shares});
 }
 
+/// Of new readings [Hz].
+double FeetOdometry::rate_of(const JointState& joints) const {
+  return rig_.leg_rate_hz / (1 + joints.repeats);
+}
+
 /// The detected contacts; all feet where no packet has reported any.
 std::array<bool, kLegCount> FeetOdometry::contacts_of(const LegOdometrySample& sample) {
   contacts_reported_ = contacts_reported_ || std::ranges::count(sample.contact, true) > 0;
@@ -84,7 +89,7 @@ void FeetOdometry::learn_compliance(const JointState& joints, const Eigen::Vecto
                       .rubber = -weight.dot(joints.load_rate) / weight.sum(),
                       .along = level.stableNormalized().dot(yielding_more),
                       .speed = level.norm()},
-                     rig_.leg_rate_hz);
+                     rate_of(joints));
 }
 
 std::optional<LinearMeasurement> FeetOdometry::measure(const LegOdometrySample& sample,
@@ -115,7 +120,7 @@ std::optional<LinearMeasurement> FeetOdometry::measure(const LegOdometrySample& 
   const double weight = total_weight(weights);
   if (weight == 0.0) return std::nullopt;
   velocity_.measured = mean_of_feet(feet, weights);
-  const double variance = variance_of_feet(weight, rig_.leg_rate_hz);
+  const double variance = variance_of_feet(weight, rate_of(*joints));
   const LinearMeasurement measurement = model(velocity_, variance);
 
   if (compliance_.learns()) learn_compliance(*joints, turning, up, select, climb);

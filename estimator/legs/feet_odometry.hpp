@@ -60,6 +60,7 @@ class FeetOdometry {
   Instant instant_before(Time stamp, double age, const NominalState& state, const ImuHistory& imu);
   std::optional<JointState> joints_of_packet(const LegOdometrySample& sample,
                                              const NominalState& state);
+  double rate_of(const JointState& joints) const;
   void learn_compliance(const JointState& joints, const Eigen::Vector3d& turning,
                         const Eigen::Vector3d& up, const FootSelection& select, double climb);
   double climb_since_last(Time stamp, double height);

@@ -43,8 +43,9 @@ double feet_scale_sigma(double part) {
 
 Eigen::Matrix3d position_covariance_by_leg_scale(const Belief& belief) {
   using E = ErrorState;
-  const Eigen::Matrix3d scale = block(belief.covariance, E::kLegScale, E::kLegScale);
-  const Eigen::Matrix3d shared = block(belief.covariance, E::kPosition, E::kLegScale);
+  const ErrorMatrix P = stated_covariance(belief);
+  const Eigen::Matrix3d scale = block(P, E::kLegScale, E::kLegScale);
+  const Eigen::Matrix3d shared = block(P, E::kPosition, E::kLegScale);
   return shared * scale.ldlt().solve(shared.transpose());
 }
 

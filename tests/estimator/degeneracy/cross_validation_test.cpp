@@ -203,8 +203,8 @@ TEST(CrossValidatedInformation, TheScatterOfScansDecidesWhatIsFree) {
   EXPECT_FALSE(after_tilts(0.0046, kScatter, std::nullopt).leaves_direction_free());
 }
 
-// Uneven walls that pass the test count with all that a scan holds, larger planes with what both
-// halves agree on, and none where a direction is free.
+// Uneven walls that pass the test count with all that a scan holds, and state what both halves
+// agree on; larger planes count with that, and none where a direction is free.
 TEST(CrossValidatedInformation, UnevenWallsCountWhole) {
   constexpr double kScatter = 12e-6;
   RandomStream random(9, "cross_validation");
@@ -217,6 +217,9 @@ TEST(CrossValidatedInformation, UnevenWallsCountWhole) {
   EXPECT_FALSE(larger.held_by_uneven_walls());
   EXPECT_EQ(uneven.applied_to(scan).matrix, scan.within);
   EXPECT_EQ(uneven.applied_to(scan).vector, scan.within_vector);
+  ASSERT_TRUE(uneven.applied_to(scan).stated);
+  EXPECT_LT((*uneven.applied_to(scan).stated)(3, 3), 0.5 * scan.within(3, 3));
+  EXPECT_FALSE(even.applied_to(scan).stated || larger.applied_to(scan).stated);
   EXPECT_LT(even.applied_to(scan).matrix(3, 3), 0.01 * scan.within(3, 3));
   EXPECT_LT(larger.applied_to(scan).matrix(3, 3), 0.5 * scan.within(3, 3));
 }

@@ -91,6 +91,15 @@ TEST(ImuPropagation, CovarianceIsThatOfTheDenseProduct) {
   EXPECT_EQ(next.covariance, ErrorMatrix(next.covariance.transpose()));
 }
 
+TEST(ImuPropagation, TheExcessIsPropagatedWithoutNoise) {
+  const ErrorMatrix P = some_covariance();
+  const Belief start{test::some_state(), P, ErrorMatrix(0.5 * P)};
+  const Belief larger{test::some_state(), 1.5 * P};
+  const ErrorMatrix stated = stated_covariance(propagate(start, some_segment(), 0.02, {}));
+  const ErrorMatrix expected = propagate(larger, some_segment(), 0.02, {}).covariance;
+  EXPECT_LT((stated - expected).norm(), 1e-12 * expected.norm());
+}
+
 TEST(ImuPropagation, LeavesLegsMountAndDelayAlone) {
   const Belief start{test::some_state(), some_covariance()};
   const Belief next = propagate(start, some_segment(), 0.02, ImuPropagationConfig{});

@@ -166,6 +166,59 @@ TEST(KalmanUpdate, GivenLegsEqualsTheDenseOne) {
   EXPECT_LT((result.leg_scale - prior.state.leg_scale).norm(), 1e-12);
 }
 
+/// The covariance that a filter states whose gains are those of the covariance `of_gain`.
+ErrorMatrix stated_after(const ErrorMatrix& of_gain, const ErrorMatrix& stated,
+                         const LinearMeasurement& m) {
+  const Eigen::Matrix3d S = m.jacobian * of_gain * m.jacobian.transpose() + m.noise;
+  const Eigen::Matrix<double, E::kSize, 3> K = of_gain * m.jacobian.transpose() * S.inverse();
+  const ErrorMatrix kept = ErrorMatrix::Identity() - K * m.jacobian;
+  return kept * stated * kept.transpose() + K * m.noise * K.transpose();
+}
+
+// The state follows all of the scan, the stated covariance what the scan states.
+TEST(KalmanUpdate, AScanThatStatesLessThanItWeighsLeavesAnExcess) {
+  RandomStream random(9, "excess");
+  const Belief prior{test::some_state(), some_covariance(random)};
+  const NominalState at = boxplus(prior.state, 0.1 * normal_error(random));
+  PoseMeasurement scan = some_scan(random);
+  const Belief whole = fuse(prior, at, scan, {.legs = false});
+  scan.stated = 0.02 * scan.matrix;
+  const Belief updated = fuse(prior, at, scan, {.legs = false});
+  EXPECT_EQ(boxminus(updated.state, whole.state).norm(), 0.0);
+  EXPECT_EQ(updated.covariance, whole.covariance);
+  const PoseMeasurement less{*scan.stated, 0.02 * scan.vector, scan.jacobian};
+  const ErrorMatrix expected = fuse(prior, at, less, {.legs = false}).covariance;
+  // About another result: what the reset of the rotation changes is small.
+  EXPECT_LT((stated_covariance(updated) - expected).norm(), 0.1 * expected.norm());
+  EXPECT_GT((stated_covariance(updated) - whole.covariance).norm(), 0.2 * expected.norm());
+}
+
+TEST(KalmanUpdate, TheExcessGoesThroughTheGainsOfTheCovariance) {
+  RandomStream random(10, "excess");
+  Belief prior{test::some_state(), some_covariance(random)};
+  prior.excess = some_covariance(random);
+  LinearMeasurement m = some_legs(prior.state);
+  m.residual.setZero();  // no reset
+  EXPECT_LT((stated_covariance(fuse(prior, m)) -
+             stated_after(prior.covariance, stated_covariance(prior), m))
+                .norm(),
+            1e-9);
+  const Belief given = fuse_given_legs(prior, m);
+  const auto legs = Eigen::seqN(E::kLegScale.offset, E::kLegSize);
+  EXPECT_LT((stated_covariance(given)(legs, legs) - stated_covariance(prior)(legs, legs)).norm(),
+            1e-9);
+  PoseMeasurement scan = some_scan(random);
+  scan.vector.setZero();
+  const PoseMeasurement same{scan.matrix, scan.vector, scan.jacobian, scan.matrix};
+  const Belief none{prior.state, prior.covariance};
+  EXPECT_LT(fuse(none, prior.state, same).excess->norm(), 1e-12);
+  const ErrorMatrix A = scan.jacobian.transpose() * scan.matrix * scan.jacobian;
+  const ErrorMatrix kept = ErrorMatrix::Identity() - (prior.covariance.inverse() + A).inverse() * A;
+  EXPECT_LT(
+      (*fuse(prior, prior.state, scan).excess - kept * *prior.excess * kept.transpose()).norm(),
+      1e-6 * prior.excess->norm());
+}
+
 TEST(KalmanUpdate, GivenLegsThatAreKnownItIsThePlainOne) {
   RandomStream random(8, "known_legs");
   const ErrorMatrix legs_kept = GainMask{.legs = false}.matrix();

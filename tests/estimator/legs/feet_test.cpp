@@ -55,6 +55,32 @@ TEST(JointDifference, SpansSeveralPacketsOfAFastStreamAndNoGap) {
   EXPECT_FALSE(difference.update({kSecond, JointVector::Zero(), JointVector::Zero()}));
 }
 
+// A driver that reads its encoders at 50 Hz and sends at 200.
+TEST(JointDifference, AnglesThatAreSentAgainAreNoReading) {
+  JointDifference difference;
+  for (int i = 0; i < 20; ++i) {
+    const JointVector angle = JointVector::Constant(0.1 * (1 + i / 4));
+    const auto state = difference.update({i * 5 * kMillisecond, angle, JointVector::Zero()});
+    EXPECT_EQ(state.has_value(), i >= 4 && i % 4 == 0) << i;
+    if (state) {
+      EXPECT_NEAR(state->rate[0], 5.0, 1e-9);
+      EXPECT_NEAR(state->age, 0.01, 1e-12);
+      EXPECT_EQ(state->repeats, 3);
+    }
+  }
+}
+
+TEST(JointDifference, AnglesThatStayAreThoseOfARobotThatStands) {
+  JointDifference difference;
+  const JointVector angle = JointVector::Ones();
+  std::optional<JointState> state;
+  for (int i = 0; i < 30; ++i) {
+    state = difference.update({i * 5 * kMillisecond, angle, JointVector::Zero()});
+  }
+  ASSERT_TRUE(state);
+  EXPECT_EQ(state->rate, JointVector::Zero());
+}
+
 // The centre of a rolling foot moves against the ground by r times the turn of the calf.
 TEST(FeetVelocities, AreTheVelocityOfABaseWhoseFeetRoll) {
   const Eigen::Vector3d velocity(0.6, -0.1, 0.05);
