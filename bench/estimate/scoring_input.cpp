@@ -29,7 +29,7 @@ std::string name_of(const TrajectoryFile& file) { return file.file.stem().string
 
 /// The error of a recording, of a damaged one with what reads the rest: scoring does not.
 tl::unexpected<Error> with_copy(const Error& error) {
-  if (error.message.find("; --recover ") == std::string::npos) return failure(error.message);
+  if (error.kind != ErrorKind::kRecoverable) return tl::unexpected(error);
   return failure(error.message + " (aims convert IN --recover --out COPY; then score the copy)");
 }
 

@@ -175,17 +175,17 @@ Result<BagIndex> read_index(const BagFile& file, std::size_t memory_limit) {
     return file.refuse(header->position,
                        "expected 'index_pos', 'conn_count' and 'chunk_count' in the file header");
   }
-  const auto with_remedy = [&](const std::string& message) {
-    const bool helps = has_intact_chunk(file, header->end(), memory_limit);
-    return message + (helps ? "; --recover reads the intact chunks, `rosbag reindex` repairs it"
-                            : "; no chunk of it is intact");
-  };
-  if (*index_position == 0) {
-    return file.refuse(header->position, with_remedy("the bag was never closed and has no index"));
+  Result<BagIndex> index =
+      *index_position == 0
+          ? file.refuse(header->position, "the bag was never closed and has no index")
+          : read_index_at(file, *index_position, *connection_count, *chunk_count);
+  if (index) return index;
+  const std::string& broken = index.error().message;
+  if (!has_intact_chunk(file, header->end(), memory_limit)) {
+    return failure(broken + "; no chunk of it is intact");
   }
-  auto index = read_index_at(file, *index_position, *connection_count, *chunk_count);
-  if (!index) return failure(with_remedy(index.error().message));
-  return index;
+  return failure(broken + "; --recover reads the intact chunks, `rosbag reindex` repairs it",
+                 ErrorKind::kRecoverable);
 }
 
 }  // namespace aims

@@ -22,7 +22,8 @@ class BagContainer final : public ChunkContainer {
     Result<void> got = load_chunk(file_, place, index_.connections, content);
     if (got && !recover_) got = check_chunk_index(file_, place, content);
     if (got || recover_) return got;
-    return failure(got.error().message + "; --recover skips damaged chunks");
+    return failure(got.error().message + "; --recover skips damaged chunks",
+                   ErrorKind::kRecoverable);
   }
 
   std::string_view remedy() const override {

@@ -310,9 +310,11 @@ Result<McapIndex> read_mcap_index(const BagFile& file, std::size_t memory_limit)
   const std::uint64_t data = opened->data;
   auto index = read_opened(file, std::move(*opened), memory_limit);
   if (index) return index;
-  const bool helps = has_intact_mcap_chunk(file, data, memory_limit);
-  return failure(index.error().message +
-                 (helps ? "; --recover reads the intact part" : "; no chunk of it is intact"));
+  const std::string& broken = index.error().message;
+  if (!has_intact_mcap_chunk(file, data, memory_limit)) {
+    return failure(broken + "; no chunk of it is intact");
+  }
+  return failure(broken + "; --recover reads the intact part", ErrorKind::kRecoverable);
 }
 
 Result<McapIndex> recover_mcap_index(const BagFile& file, std::size_t memory_limit) {

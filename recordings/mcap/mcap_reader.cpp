@@ -26,7 +26,8 @@ class McapContainer final : public ChunkContainer {
         load_mcap_chunk(file_, place, index_.definitions, content, recover_ ? &lost : nullptr);
     if (got && !recover_) got = check_content(place, content);
     if (got || recover_) return got;
-    return failure(got.error().message + "; --recover skips damaged chunks");
+    return failure(got.error().message + "; --recover skips damaged chunks",
+                   ErrorKind::kRecoverable);
   }
 
   std::string_view remedy() const override {

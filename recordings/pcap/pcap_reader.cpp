@@ -164,8 +164,9 @@ Result<std::optional<KindSource::Made>> PcapReader::make() {
   while (true) {
     const auto packet = pcap.packets.next();
     if (!packet && !pcap.recover) {
-      const bool helps = pcap.packets_seen() > 0;
-      return failure(packet.error().message + (helps ? "; --recover reads the part before" : ""));
+      if (pcap.packets_seen() == 0) return tl::unexpected(packet.error());
+      return failure(packet.error().message + "; --recover reads the part before",
+                     ErrorKind::kRecoverable);
     }
     if (!packet) set_incomplete(pcap.packets.file().size() - pcap.packets.position());
     if (!packet || !*packet) {

@@ -68,10 +68,12 @@ Result<Rosbag2Metadata> files_of(const fs::path& recording, bool recover) {
     const auto part = open_part(file, {.recover = true});
     return part && (*part)->summary().messages > 0;
   });
-  return failure(fmt::format(
-      "{}: has no {}: recording was never completed; {}", recording.string(), kRosbag2Metadata,
-      helps ? "--recover reads the intact files, `ros2 bag reindex` writes it"
-            : "none of its files can be read"));
+  return failure(
+      fmt::format("{}: has no {}: recording was never completed; {}", recording.string(),
+                  kRosbag2Metadata,
+                  helps ? "--recover reads the intact files, `ros2 bag reindex` writes it"
+                        : "none of its files can be read"),
+      helps ? ErrorKind::kRecoverable : ErrorKind::kOther);
 }
 
 }  // namespace

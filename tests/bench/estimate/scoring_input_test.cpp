@@ -120,6 +120,15 @@ TEST_F(ScoringInputs, OfADamagedRecordingACopyIsAdvised) {
       << message_of(request);
 }
 
+TEST_F(ScoringInputs, NoCopyIsAdvisedByTheWordsOfAPath) {
+  ScoringRequest request;
+  request.truth = file("; --recover reads.bag", "no bag");
+  request.estimates = {file("e.tum", tum_text(bend()))};
+  EXPECT_NE(message_of(request).find("reads.bag: at byte 0: "), std::string::npos)
+      << message_of(request);
+  EXPECT_EQ(message_of(request).find("aims convert"), std::string::npos);
+}
+
 TEST_F(ScoringInputs, WaypointTimesOfARunAreScoredOverItsScenariosSegments) {
   // As on the garage: from a to d and from d to h, past the points between.
   const std::string times = "point,stamp_s\na,0\nb,2\nd,4\nf,5\nh,7\nd,8\na,9\n";

@@ -145,6 +145,7 @@ TEST(BagReader, RecoversTheIntactChunksOfEveryTruncatedBag) {
         recovered.messages.empty() ? "; no chunk of it is intact" : "; --recover reads";
     EXPECT_NE(refused.error.find(advice), std::string::npos) << refused.error;
     EXPECT_FALSE(recovered.summary.indexed);
+    EXPECT_EQ(refused.kind == ErrorKind::kRecoverable, !recovered.messages.empty());
     EXPECT_GE(recovered.messages.size(), most);
     most = recovered.messages.size();
     EXPECT_TRUE(std::equal(recovered.messages.begin(), recovered.messages.end(), messages.begin()));

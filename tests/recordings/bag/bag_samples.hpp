@@ -41,24 +41,24 @@ inline bool put_file(const std::filesystem::path& file, std::string_view bytes) 
 struct ReadOutcome {
   std::vector<SampleMessage> messages;
   std::string error;  ///< empty: none
+  ErrorKind kind = ErrorKind::kOther;
   BagSummary summary;
 };
 
 template <class Reader = BagReader>
 ReadOutcome read_all(const std::filesystem::path& file, BagOpenOptions options = {}) {
   ReadOutcome outcome;
-  auto bag = Reader::open(file, options);
-  if (!bag) {
-    outcome.error = bag.error().message;
+  const auto fail = [&outcome](const Error& error) {
+    outcome.error = error.message;
+    outcome.kind = error.kind;
     return outcome;
-  }
+  };
+  auto bag = Reader::open(file, options);
+  if (!bag) return fail(bag.error());
   outcome.summary = bag->summary();
   while (true) {
     const auto message = bag->next();
-    if (!message) {
-      outcome.error = message.error().message;
-      return outcome;
-    }
+    if (!message) return fail(message.error());
     if (!*message) return outcome;
     const BagMessage& each = **message;
     outcome.messages.push_back(

@@ -197,6 +197,7 @@ TEST_F(Mcap, RecoversTheIntactChunksOfEveryTruncatedFile) {
           recovered.messages.empty() ? "; no chunk of it is intact" : "; --recover reads";
       EXPECT_NE(refused.error.find("never closed or is truncated" + advice), std::string::npos)
           << refused.error;
+      EXPECT_EQ(refused.kind == ErrorKind::kRecoverable, !recovered.messages.empty());
       EXPECT_GE(recovered.messages.size(), most);
       most = recovered.messages.size();
       EXPECT_TRUE(

@@ -233,12 +233,16 @@ TEST_F(Rosbag2, AFolderIsARecordingByItsMetadata) {
   write_bag<Rosbag2Writer>(path("r"), few_messages());
   EXPECT_EQ(format_by_content(path("r")), RecordingFormat::kRosbag2);
   fs::remove(path("r/metadata.yaml"));
-  EXPECT_NE(read(path("r")).error.find("was never completed; --recover reads"), std::string::npos);
+  const ReadOutcome refused = read(path("r"));
+  EXPECT_NE(refused.error.find("was never completed; --recover reads"), std::string::npos);
+  EXPECT_EQ(refused.kind, ErrorKind::kRecoverable);
   EXPECT_EQ(read(path("r"), {.recover = true}).messages, few_messages());
   fs::resize_file(path("r/r_0.db3"), 512);
-  const std::string error = read(path("r")).error;
-  EXPECT_NE(error.find("was never completed; none of its files can be read"), std::string::npos)
-      << error;
+  const ReadOutcome lost = read(path("r"));
+  EXPECT_NE(lost.error.find("was never completed; none of its files can be read"),
+            std::string::npos)
+      << lost.error;
+  EXPECT_EQ(lost.kind, ErrorKind::kOther);
 }
 
 TEST_F(Rosbag2, EncryptedAndPackedFilesAreNamedAsSuch) {
