@@ -11,12 +11,12 @@
 #include <cstring>
 #include <exception>
 #include <new>
-#include <sstream>
 #include <system_error>
 
 #include "cli/json_output.hpp"
 #include "cli/terminal.hpp"
 #include "core/config.hpp"
+#include "core/text.hpp"
 
 namespace aims {
 
@@ -26,8 +26,7 @@ fs::path find_external(const ExternalCommand& command, const fs::path& program,
                        const std::string& search_path) {
   const std::string file = std::string("aims_") + command.name;
   std::vector<fs::path> folders = {program.parent_path()};
-  std::istringstream listed(search_path);
-  for (std::string folder; std::getline(listed, folder, ':');) {
+  for (const std::string& folder : split(search_path, ':')) {
     if (!folder.empty()) folders.emplace_back(folder);
   }
   for (const fs::path& folder : folders) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <charconv>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 #include "cli/commands.hpp"
 #include "cli/suite_options.hpp"
 #include "cli/terminal.hpp"
+#include "core/text.hpp"
 #include "estimator/estimator_spec.hpp"
 
 namespace aims {
@@ -28,10 +28,8 @@ Result<std::vector<double>> factors_of(const std::vector<std::string>& texts) {
   if (texts.empty()) return SensitivityOptions().factors;
   std::vector<double> factors;
   for (const std::string& text : texts) {
-    double factor = 0.0;
-    const char* end = text.data() + text.size();
-    const auto [at, error] = std::from_chars(text.data(), end, factor);
-    if (error != std::errc() || at != end || !(factor > 0.0 && factor < 1e6) || factor == 1.0) {
+    const double factor = number_from<double>(text).value_or(0.0);
+    if (!(factor > 0.0 && factor < 1e6) || factor == 1.0) {
       return failure(fmt::format("--factors: expected numbers above 0, not 1, found '{}'", text));
     }
     factors.push_back(factor);

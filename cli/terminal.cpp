@@ -7,10 +7,7 @@
 
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <cstdlib>
-#include <cstring>
-#include <sstream>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -37,9 +34,7 @@ constexpr std::array kLeast = {"ATE SE(3)",   "ATE Sim(3)", "path error deg", "C
 std::size_t output_width() {
   constexpr std::size_t kWithoutTerminal = 120;
   if (const char* columns = std::getenv("COLUMNS"); columns != nullptr) {
-    std::size_t width = 0;
-    const char* end = columns + std::strlen(columns);
-    if (std::from_chars(columns, end, width).ptr == end && width > 0) return width;
+    if (const auto width = number_from<std::size_t>(columns); width > std::size_t{0}) return *width;
   }
   winsize size{};
   const bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
@@ -76,8 +71,7 @@ void print_failure(std::string_view message) {
   const std::size_t begin = message.find("\nTraceback (most recent call last):");
   print_error(message.substr(0, begin));
   if (begin == std::string_view::npos) return;
-  std::istringstream lines{std::string(message.substr(begin + 1))};
-  for (std::string line; std::getline(lines, line);) print_error(line);
+  for (const std::string& line : split(message.substr(begin + 1), '\n')) print_error(line);
 }
 
 Result<void> finish_output() {

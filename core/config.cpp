@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
@@ -18,11 +17,8 @@ template <class Number>
 std::optional<Number> parse(std::string_view text) {
   text = trimmed(text);
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  if (!std::isfinite(static_cast<double>(value))) return std::nullopt;
-  return value;
+  const auto value = number_from<Number>(text);
+  return value && std::isfinite(static_cast<double>(*value)) ? value : std::nullopt;
 }
 
 /// Removes a double-quoted entry from the front of `rest`; nothing when its quote never closes.

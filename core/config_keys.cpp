@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/config.hpp"
+#include "core/text.hpp"
 
 namespace aims {
 namespace {
@@ -138,9 +138,8 @@ std::string missing_entry_message(const Fields& fields, std::string_view key) {
     const std::string_view rest = key.substr(list.key.size() + 1);
     const std::string_view index = rest.substr(0, rest.find('.'));
     if (index.empty() || index.find_first_not_of("0123456789") != std::string_view::npos) continue;
-    std::size_t entry = 0;
-    const auto [end, error] = std::from_chars(index.data(), index.data() + index.size(), entry);
-    if (error == std::errc() && entry < list.size()) continue;
+    const auto entry = number_from<std::size_t>(index);
+    if (entry && *entry < list.size()) continue;
     return fmt::format("{}: no entry {}; {} has {}, counted from 0", key, index, list.key,
                        list.size());
   }

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <charconv>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
+#include <vector>
 
 #include "core/time.hpp"
 
@@ -29,6 +33,22 @@ std::string line_text(std::string_view message);
 
 /// Without the characters of `blanks` at either end.
 std::string_view trimmed(std::string_view text, std::string_view blanks = " \t");
+
+/// Takes the text up to the separator, or to the end, off the front, and that separator with it.
+std::string_view take_until(std::string_view& text, char separator);
+
+/// The parts before, between and behind the separators; a last one that is empty is none.
+std::vector<std::string> split(std::string_view text, char separator);
+
+/// The number that fills the whole text, without sign or with a minus; nothing when it is none, or
+/// does not fit.
+template <class Number>
+std::optional<Number> number_from(std::string_view text) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
 
 /// With a to z for A to Z; other characters stay.
 std::string lower_case(std::string_view text);

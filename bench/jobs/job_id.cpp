@@ -2,10 +2,10 @@
 #include "bench/jobs/job_id.hpp"
 
 #include <fmt/format.h>
-#include <charconv>
 
 #include "bench/run/code_version.hpp"
 #include "core/files/config_dump.hpp"
+#include "core/text.hpp"
 
 namespace aims {
 
@@ -61,15 +61,10 @@ std::string job_id(const Scenario& scenario, std::uint64_t seed, const std::stri
 }
 
 Result<Shard> parse_shard(std::string_view text) {
-  Shard shard;
-  const char* end = text.data() + text.size();
-  const auto index = std::from_chars(text.data(), end, shard.index);
-  bool right = index.ec == std::errc() && index.ptr != end && *index.ptr == '/';
-  if (right) {
-    const auto count = std::from_chars(index.ptr + 1, end, shard.count);
-    right = count.ec == std::errc() && count.ptr == end;
-  }
-  if (right && shard.index >= 1 && shard.index <= shard.count) return shard;
+  std::string_view count = text;
+  const Shard shard{number_from<int>(take_until(count, '/')).value_or(0),
+                    number_from<int>(count).value_or(0)};
+  if (shard.index >= 1 && shard.index <= shard.count) return shard;
   return failure(fmt::format("--shard: expected I/N with I from 1 to N, e.g. 2/8, got '{}'", text));
 }
 

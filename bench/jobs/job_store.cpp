@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <sstream>
 #include <system_error>
 
 #include "bench/run/code_version.hpp"
@@ -42,8 +41,7 @@ std::string job_list(std::span<const Job> jobs) {
 
 /// The line of `text` that begins with `start`; empty when there is none.
 std::string line_of(const std::string& text, std::string_view start) {
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
+  for (const std::string& line : split(text, '\n')) {
     if (line.starts_with(start)) return line.substr(start.size());
   }
   return "";
@@ -51,14 +49,10 @@ std::string line_of(const std::string& text, std::string_view start) {
 
 /// Of two texts, the first line of `theirs` that `ours` has otherwise.
 std::string first_difference(const std::string& theirs, const std::string& ours) {
-  std::istringstream a(theirs);
-  std::istringstream b(ours);
-  std::string left;
-  std::string right;
-  while (std::getline(a, left)) {
-    if (!std::getline(b, right) || left != right) return left;
-  }
-  return "(fewer lines)";
+  const auto a = split(theirs, '\n');
+  const auto b = split(ours, '\n');
+  const auto [left, right] = std::ranges::mismatch(a, b);
+  return left == a.end() ? "(fewer lines)" : *left;
 }
 
 /// Why the folder's jobs are not these; empty when they are, whatever else the plan holds.
@@ -80,9 +74,8 @@ std::string mismatch(const std::string& plan_there, const std::string& plan_here
 
 /// "--set a=1 --set b=2", or that there is none.
 std::string options_text(const std::string& settings) {
-  std::istringstream lines(settings);
   std::string text;
-  for (std::string line; std::getline(lines, line);) {
+  for (const std::string& line : split(settings, '\n')) {
     text += fmt::format("{}--set {}", text.empty() ? "" : " ", line);
   }
   return text.empty() ? "no --set" : text;
@@ -146,10 +139,7 @@ Result<void> JobStore::check_settings(const std::vector<std::string>& settings) 
 }
 
 std::vector<std::string> JobStore::settings() const {
-  std::istringstream lines(read_file(folder_ / kSettingsFile).value_or(""));
-  std::vector<std::string> settings;
-  for (std::string line; std::getline(lines, line);) settings.push_back(line);
-  return settings;
+  return split(read_file(folder_ / kSettingsFile).value_or(""), '\n');
 }
 
 Result<void> JobStore::keep_settings(const std::vector<std::string>& settings) const {

@@ -4,21 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
+
+#include "core/text.hpp"
 
 namespace aims {
 namespace {
 
 constexpr std::uint64_t kMostSeeds = 10'000;
 constexpr std::uint64_t kLargestSeed = 2'147'483'647;  ///< of the key `seed`, an int
-
-std::optional<std::uint64_t> parse_seed(std::string_view text) {
-  std::uint64_t seed = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return seed;
-}
 
 /// What one entry of the list says.
 struct SeedRange {
@@ -29,8 +23,9 @@ struct SeedRange {
 /// "a" or "a-b"; nothing when it is neither.
 std::optional<SeedRange> parse_range(std::string_view text) {
   const auto dash = text.find('-');
-  const auto first = parse_seed(text.substr(0, dash));
-  const auto last = dash == std::string_view::npos ? first : parse_seed(text.substr(dash + 1));
+  const auto first = number_from<std::uint64_t>(text.substr(0, dash));
+  const auto last =
+      dash == std::string_view::npos ? first : number_from<std::uint64_t>(text.substr(dash + 1));
   if (!first || !last || *last < *first) return std::nullopt;
   return SeedRange{*first, *last};
 }

@@ -53,9 +53,8 @@ Result<void> add(std::string_view entry, SegmentList& list) {
 Result<SegmentList> parse_segments(std::string_view text) {
   SegmentList list;
   while (!text.empty()) {
-    const std::size_t comma = std::min(text.find(','), text.size());
-    if (auto added = add(text.substr(0, comma), list); !added) return tl::unexpected(added.error());
-    text.remove_prefix(std::min(comma + 1, text.size()));
+    auto added = add(take_until(text, ','), list);
+    if (!added) return tl::unexpected(added.error());
   }
   return list;
 }

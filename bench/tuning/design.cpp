@@ -20,15 +20,7 @@ namespace {
 constexpr std::string_view kForms =
     "expected KEY=LOW:HIGH:COUNT or KEY=log(LOW,HIGH,COUNT), e.g. degeneracy.eta=0:6:13";
 
-template <class Number>
-std::optional<Number> number_of(std::string_view text) {
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-std::vector<std::string_view> split(std::string_view text, char separator) {
+std::vector<std::string_view> trimmed_parts(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(separator, begin), text.size());
@@ -143,8 +135,6 @@ Fractions latin_fractions(std::size_t points, std::size_t dimensions, RandomStre
 
 }  // namespace
 
-std::optional<double> number_in(std::string_view text) { return number_of<double>(text); }
-
 Result<ParameterRange> parse_range(std::string_view text) {
   const auto wrong = [&] { return failure(fmt::format("range '{}': {}", text, kForms)); };
   const std::size_t equals = text.find('=');
@@ -154,11 +144,11 @@ Result<ParameterRange> parse_range(std::string_view text) {
   std::string_view rest = trimmed(text.substr(equals + 1), " ");
   range.log = rest.starts_with("log(") && rest.ends_with(")");
   if (range.log) rest = rest.substr(4, rest.size() - 5);
-  const auto parts = split(rest, range.log ? ',' : ':');
+  const auto parts = trimmed_parts(rest, range.log ? ',' : ':');
   if (range.key.empty() || parts.size() < 2 || parts.size() > 3) return wrong();
-  const auto low = number_of<double>(parts[0]);
-  const auto high = number_of<double>(parts[1]);
-  const auto count = parts.size() == 3 ? number_of<int>(parts[2]) : std::optional<int>(0);
+  const auto low = number_from<double>(parts[0]);
+  const auto high = number_from<double>(parts[1]);
+  const auto count = parts.size() == 3 ? number_from<int>(parts[2]) : std::optional<int>(0);
   if (!low || !high || !count) return wrong();
   if (parts.size() == 3 && *count < 1) {
     return failure(fmt::format("range '{}': expected at least 1 value, not {}", text, *count));

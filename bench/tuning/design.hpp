@@ -39,9 +39,6 @@ enum class DesignKind {
 /// Most points of a design.
 inline constexpr std::size_t kMostPoints = 10'000'000;
 
-/// The number that the entire text is; none when it is no number.
-std::optional<double> number_in(std::string_view text);
-
 /// The range that `text` describes. Errors name the text and what was expected: no number, a
 /// reversed or empty range, fewer values than its ends need, the logarithm of what is not positive.
 /// `range_key` (bench/tuning/range_key.hpp) finds whose key it is.

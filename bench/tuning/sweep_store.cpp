@@ -5,13 +5,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <string_view>
 #include <system_error>
 
 #include "bench/scoring/json_text.hpp"
 #include "core/files/sqlite_database.hpp"
+#include "core/text.hpp"
 
 namespace aims {
 namespace {
@@ -45,10 +45,8 @@ void bind(SqliteStatement& statement, int at, const Json& value) {
 
 /// A setting's text as the number that it is, if it is one.
 Json setting_value(const std::string& text) {
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error == std::errc() && end == text.data() + text.size()) return number;
-  return text;
+  const auto number = number_from<double>(text);
+  return number ? Json(*number) : Json(text);
 }
 
 /// Fills the tables of an empty database.

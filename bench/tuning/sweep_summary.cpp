@@ -15,6 +15,7 @@
 #include "bench/tuning/response_summary.hpp"
 #include "bench/tuning/sweep_plan.hpp"
 #include "core/files/yaml_config.hpp"
+#include "core/text.hpp"
 
 namespace aims {
 namespace {
@@ -151,7 +152,8 @@ Result<VariedParameters> varied_in(const MergedSweep& sweep) {
     if (!job.file.is_object()) continue;
     const Json defaults = value_in(job.file, "defaults", Json::object());
     for (const auto& [key, text] : defaults.items()) {
-      const auto value = text.is_string() ? number_in(text.get<std::string>()) : std::nullopt;
+      const auto value =
+          text.is_string() ? number_from<double>(text.get<std::string>()) : std::nullopt;
       if (value) varied.scenario_values.emplace(key, *value);
     }
   }
@@ -175,7 +177,7 @@ std::optional<PlacedJob> placed_job(const MergedJob& job, const VariedParameters
   for (const ParameterRange& range : varied.ranges) {
     const auto found = as_planned ? settings.end() : settings.find(range.key);
     if (found == settings.end()) continue;
-    const auto value = number_in(found->second);
+    const auto value = number_from<double>(found->second);
     if (!value) return std::nullopt;
     placed.values.push_back(*value);
     settings.erase(found);
@@ -209,7 +211,7 @@ Result<std::vector<double>> default_values(const EstimatorSpec& estimator,
     }
     const Parameter* parameter = fields.find(range.key);
     if (parameter == nullptr) return failure(unknown_key_message(fields, range.key));
-    values.push_back(number_in(parameter->text()).value_or(range.low));
+    values.push_back(number_from<double>(parameter->text()).value_or(range.low));
   }
   return values;
 }

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <fstream>
 #include <set>
 #include <utility>
 
@@ -17,6 +16,7 @@
 #include "core/files/atomic_file.hpp"
 #include "core/files/config_dump.hpp"
 #include "core/files/yaml_config.hpp"
+#include "core/text.hpp"
 
 namespace aims {
 namespace {
@@ -32,7 +32,7 @@ Result<std::vector<double>> default_values(const TuneTask& task, const Scenario&
   const Fields fields = fields_of(**config);
   std::vector<double> values;
   for (const ParameterRange& range : task.ranges) {
-    values.push_back(number_in(fields.find(range.key)->text()).value_or(0.0));
+    values.push_back(number_from<double>(fields.find(range.key)->text()).value_or(0.0));
   }
   return values;
 }
@@ -262,12 +262,9 @@ Result<void> write_tune_jobs(const std::filesystem::path& folder,
 }
 
 std::optional<std::set<std::string>> read_tune_jobs(const std::filesystem::path& folder) {
-  std::ifstream file(folder / kFile);
-  std::string line;
-  if (!std::getline(file, line) || line != kHeader) return std::nullopt;
-  std::set<std::string> ids;
-  while (std::getline(file, line)) ids.insert(line);
-  return ids;
+  const auto lines = split(read_file(folder / kFile).value_or(""), '\n');
+  if (lines.empty() || lines.front() != kHeader) return std::nullopt;
+  return std::set<std::string>(lines.begin() + 1, lines.end());
 }
 
 }  // namespace aims

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -15,6 +14,7 @@
 #include "bench/tuning/tune_verdict.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/csv.hpp"
+#include "core/text.hpp"
 #include "estimator/python/python_estimator.hpp"
 
 namespace aims {
@@ -306,9 +306,8 @@ namespace {
 
 /// Lines of `text`, each after "# ".
 std::string commented(const std::string& text) {
-  std::istringstream lines(text);
   std::string result;
-  for (std::string line; std::getline(lines, line);) result += "#   " + line + "\n";
+  for (const std::string& line : split(text, '\n')) result += "#   " + line + "\n";
   return result;
 }
 
@@ -317,9 +316,7 @@ std::string nested_yaml(const std::vector<std::pair<std::string, std::string>>& 
   std::string text;
   std::vector<std::string> open;
   for (const auto& [key, value] : settings) {
-    std::vector<std::string> parts;
-    std::istringstream stream(key);
-    for (std::string part; std::getline(stream, part, '.');) parts.push_back(part);
+    const std::vector<std::string> parts = split(key, '.');
     std::size_t shared = 0;
     while (shared + 1 < parts.size() && shared < open.size() && open[shared] == parts[shared]) {
       ++shared;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "bench/metrics/paired_test.hpp"
 #include "bench/tuning/effect.hpp"
@@ -121,10 +120,7 @@ std::string looks_text(std::size_t earlier) {
 }
 
 std::vector<std::string> looks_in(const std::filesystem::path& folder) {
-  std::vector<std::string> looks;
-  std::ifstream lines(folder / kLooks);
-  for (std::string line; std::getline(lines, line);) looks.push_back(line);
-  return looks;
+  return split(read_file(folder / kLooks).value_or(""), '\n');
 }
 
 Result<void> note_look(TuneResult& result, const std::filesystem::path& folder) {

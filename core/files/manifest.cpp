@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/files/manifest.hpp"
 
-#include <sstream>
 #include <system_error>
 
 #include "core/files/atomic_file.hpp"
+#include "core/text.hpp"
 
 namespace aims {
 namespace {
@@ -30,8 +30,7 @@ std::optional<FileList> listed_files(const fs::path& folder) {
   const auto text = read_file(folder / kManifestFile);
   if (!text) return std::nullopt;
   FileList files;
-  std::istringstream lines(*text);
-  for (std::string line; std::getline(lines, line);) {
+  for (const std::string& line : split(*text, '\n')) {
     if (!line.empty()) files.insert(line);
   }
   return files;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -13,13 +12,6 @@
 
 namespace aims {
 namespace {
-
-std::optional<std::uint64_t> parse_digits(std::string_view word) {
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return value;
-}
 
 /// "+9.81" without its sign.
 std::string_view without_plus(std::string_view word) {
@@ -38,9 +30,7 @@ std::optional<std::string_view> LineReader::next() {
   while (!rest_.empty()) {
     number_ += 1 + further_;
     further_ = 0;
-    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-    const std::string_view line = rest_.substr(0, end);
-    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    const std::string_view line = take_until(rest_, '\n');
     const std::size_t first = line.find_first_not_of(" \t\r");
     if (first != std::string_view::npos && line[first] != '#') return line;
   }
@@ -80,12 +70,8 @@ std::vector<std::string_view> words_of(std::string_view line) {
 }
 
 std::optional<double> parse_number(std::string_view word, bool finite) {
-  word = without_plus(word);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  if (finite && !std::isfinite(value)) return std::nullopt;
-  return value;
+  const auto value = number_from<double>(without_plus(word));
+  return value && finite && !std::isfinite(*value) ? std::nullopt : value;
 }
 
 std::optional<Time> parse_stamp(std::string_view word) {
@@ -96,8 +82,8 @@ std::optional<Time> parse_stamp(std::string_view word) {
   std::string decimals(dot < unsigned_word.size() ? unsigned_word.substr(dot + 1) : "");
   const bool exact = decimals.size() <= 9;
   decimals.resize(9, '0');
-  const auto seconds = parse_digits(unsigned_word.substr(0, dot));
-  const auto fraction = parse_digits(decimals);
+  const auto seconds = number_from<std::uint64_t>(unsigned_word.substr(0, dot));
+  const auto fraction = number_from<std::uint64_t>(decimals);
   constexpr auto kMaxSeconds =
       static_cast<std::uint64_t>(std::numeric_limits<Time>::max() / kSecond);
   if (exact && seconds && fraction) {

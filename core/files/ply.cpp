@@ -5,13 +5,13 @@
 
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cstring>
 #include <map>
 #include <optional>
 
 #include "core/files/atomic_file.hpp"
 #include "core/files/number_lines.hpp"
+#include "core/text.hpp"
 
 namespace aims {
 namespace {
@@ -43,13 +43,6 @@ std::optional<std::string_view> take_line(std::string_view& text) {
   return line;
 }
 
-std::optional<std::size_t> parse_count(std::string_view word) {
-  std::size_t count = 0;
-  const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), count);
-  if (code != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return count;
-}
-
 /// Adds a property of a vertex to the layout; false for a list or an unknown type.
 bool add_property(const std::vector<std::string_view>& words, Layout& layout) {
   const auto size = words.size() == 3 ? kTypeSizes.find(words[1]) : kTypeSizes.end();
@@ -74,8 +67,9 @@ std::optional<std::string> read_header(std::string_view& text, Layout& layout) {
     if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
     if (words[0] == "end_header") return std::nullopt;
     if (words[0] == "element" && ++elements == 1) {
-      const auto count =
-          words.size() == 3 && words[1] == "vertex" ? parse_count(words[2]) : std::nullopt;
+      const auto count = words.size() == 3 && words[1] == "vertex"
+                             ? number_from<std::size_t>(words[2])
+                             : std::nullopt;
       if (!count) return fmt::format("expected 'element vertex COUNT', found '{}'", *line);
       layout.count = *count;
     } else if (words[0] == "property" && elements == 1 && !add_property(words, layout)) {

@@ -10,6 +10,8 @@
 #include <sstream>
 #include <vector>
 
+#include "core/text.hpp"
+
 namespace aims {
 namespace {
 
@@ -73,13 +75,6 @@ struct Position {
   std::size_t depth = 0;  ///< parts of the key that were found
 };
 
-std::vector<std::string> parts_of(const std::string& key) {
-  std::vector<std::string> parts;
-  std::istringstream stream(key);
-  for (std::string part; std::getline(stream, part, '.');) parts.push_back(part);
-  return parts;
-}
-
 YAML::Node child_of(const YAML::Node& node, const std::string& part) {
   if (node.IsMap()) return node[part];
   const bool index = !part.empty() && part.find_first_not_of("0123456789") == std::string::npos;
@@ -121,7 +116,7 @@ Position search(fs::path file, const std::vector<std::string>& parts, const fs::
 
 std::string with_position(const fs::path& file, const std::string& message, const fs::path& named) {
   try {
-    const Position at = search(file, parts_of(message.substr(0, message.find(": "))), named);
+    const Position at = search(file, split(message.substr(0, message.find(": ")), '.'), named);
     if (at.depth > 0) {
       return fmt::format("{}:{}:{}: {}", at.file.string(), at.mark.line + 1, at.mark.column + 1,
                          message);

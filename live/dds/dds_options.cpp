@@ -3,8 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <regex>
+
+#include "core/text.hpp"
 
 namespace aims {
 namespace {
@@ -12,13 +13,11 @@ namespace {
 constexpr std::uint32_t kMaxDomain = 232;  ///< beyond it ports exceed 65535
 
 std::string is_domain(const std::string& text) {
-  std::uint32_t domain = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, domain);
-  const bool fits = error == std::errc() && stop == end && domain <= kMaxDomain;
-  return fits ? ""
-              : fmt::format("expected a number from 0 to {}, also in $ROS_DOMAIN_ID, got '{}'",
-                            kMaxDomain, text);
+  const auto domain = number_from<std::uint32_t>(text);
+  return domain && *domain <= kMaxDomain
+             ? ""
+             : fmt::format("expected a number from 0 to {}, also in $ROS_DOMAIN_ID, got '{}'",
+                           kMaxDomain, text);
 }
 
 constexpr std::size_t kLongestNode = 200;  ///< DDS allows 255 characters for a topic

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "core/files/iso_time.hpp"
 #include "core/files/number_lines.hpp"
 #include "core/files/text_file.hpp"
+#include "core/text.hpp"
 #include "recordings/csv/csv_mapping.hpp"
 #include "recordings/messages/message_encoding.hpp"
 #include "recordings/messages/message_types.hpp"
@@ -79,9 +79,7 @@ std::optional<Time> time_of(const std::string& cell, CsvTimeUnit unit) {
   if (const auto date = parse_iso_time(cell)) return date->time;
   if (unit == CsvTimeUnit::kSeconds) return parse_stamp(cell);
   if (unit == CsvTimeUnit::kNanoseconds) {
-    Time time = 0;
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), time);
-    if (error == std::errc() && end == cell.data() + cell.size()) return time;
+    if (const auto time = number_from<Time>(cell)) return time;
   }
   const auto number = parse_number(cell);
   const double scale = unit == CsvTimeUnit::kMilliseconds   ? 1e6

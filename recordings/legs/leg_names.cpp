@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 
 #include "core/text.hpp"
 
@@ -158,9 +157,8 @@ std::optional<JointOrder> order_of_indices(std::span<const std::string> listed, 
   JointOrder order{};
   if (listed.size() != order.size()) return std::nullopt;
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const char* const end = listed[i].data() + listed[i].size();
-    const auto [read, error] = std::from_chars(listed[i].data(), end, order[i]);
-    if (error != std::errc() || read != end || order[i] >= size) return std::nullopt;
+    order[i] = number_from<std::size_t>(listed[i]).value_or(size);
+    if (order[i] >= size) return std::nullopt;
     const auto before = std::span(order).first(i);
     if (std::ranges::find(before, order[i]) != before.end()) return std::nullopt;
   }

@@ -2,7 +2,8 @@
 #include "recordings/messages/definition_words.hpp"
 
 #include <algorithm>
-#include <charconv>
+
+#include "core/text.hpp"
 
 namespace aims {
 namespace {
@@ -24,11 +25,8 @@ bool is_separator(std::string_view line) {
 }
 
 std::optional<std::uint32_t> count_in(std::string_view digits) {
-  std::uint32_t count = 0;
-  const char* last = digits.data() + digits.size();
-  const auto [end, error] = std::from_chars(digits.data(), last, count);
-  if (error != std::errc() || end != last || count == 0) return std::nullopt;
-  return count;
+  const auto count = number_from<std::uint32_t>(digits);
+  return count && *count > 0 ? count : std::nullopt;
 }
 
 }  // namespace aims

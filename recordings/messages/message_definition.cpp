@@ -150,9 +150,7 @@ Result<std::vector<TypeDefinition>> parse_definition(std::string_view given, std
   int number = 0;
   while (!text.empty()) {
     ++number;
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = trimmed(text.substr(0, end), kBlank);
-    text.remove_prefix(std::min(end + 1, text.size()));
+    const std::string_view line = trimmed(take_until(text, '\n'), kBlank);
     if (is_separator(line)) {
       expect_name = true;
     } else if (expect_name && line.starts_with(kSectionWord)) {

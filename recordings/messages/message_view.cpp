@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "recordings/messages/message_view.hpp"
 
-#include <charconv>
 #include <utility>
 
 #include "core/files/byte_cursor.hpp"
+#include "core/text.hpp"
 #include "recordings/messages/message_traversal.hpp"
 #include "recordings/messages/message_view_impl.hpp"
 
@@ -29,11 +29,9 @@ std::optional<PathParts> split(std::string_view path) {
   const std::size_t open = path.find('[');
   const std::size_t close = path.find(']', open);
   if (open == std::string_view::npos || close == std::string_view::npos) return std::nullopt;
-  PathParts parts{path.substr(0, open), 0, path.substr(close + 1)};
-  const char* first = path.data() + open + 1;
-  const char* last = path.data() + close;
-  const auto [end, error] = std::from_chars(first, last, parts.entry);
-  if (error != std::errc() || end != last) return std::nullopt;
+  const auto entry = number_from<std::uint32_t>(path.substr(open + 1, close - open - 1));
+  if (!entry) return std::nullopt;
+  PathParts parts{path.substr(0, open), *entry, path.substr(close + 1)};
   if (parts.rest.empty()) return parts;
   if (parts.rest[0] != '.') return std::nullopt;
   parts.rest.remove_prefix(1);

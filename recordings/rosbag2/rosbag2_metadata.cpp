@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <map>
 #include <optional>
 #include <set>
@@ -67,16 +66,13 @@ std::optional<std::pair<std::string, int>> numbered(const fs::path& file) {
   const std::string name = file.filename().string();
   const std::size_t mark = name.rfind('_');
   if (mark == std::string::npos) return std::nullopt;
-  const char* const last = name.data() + name.size();
-  int number = 0;
-  const auto [end, error] = std::from_chars(name.data() + mark + 1, last, number);
-  const std::string_view extension(end, last);
-  constexpr std::array<std::string_view, 4> kExtensions = {".db3", ".mcap", ".db3.zstd",
-                                                           ".mcap.zstd"};
-  if (error != std::errc() || std::ranges::find(kExtensions, extension) == kExtensions.end()) {
+  std::string_view extension = std::string_view(name).substr(mark + 1);
+  const auto number = number_from<int>(take_until(extension, '.'));
+  constexpr std::array<std::string_view, 4> kExtensions = {"db3", "mcap", "db3.zstd", "mcap.zstd"};
+  if (!number || std::ranges::find(kExtensions, extension) == kExtensions.end()) {
     return std::nullopt;
   }
-  return std::pair(name.substr(0, mark), number);
+  return std::pair(name.substr(0, mark), *number);
 }
 
 /// A text as YAML in double quotes.

@@ -13,6 +13,7 @@
 #include "core/files/number_lines.hpp"
 #include "core/files/pose_cleaning.hpp"
 #include "core/files/text_file.hpp"
+#include "core/text.hpp"
 #include "recordings/source/recording_file.hpp"
 #include "recordings/trajectories/bag_trajectory.hpp"
 #include "recordings/trajectories/pose_table.hpp"
@@ -53,9 +54,7 @@ std::string with_stamps(std::string_view text, const std::string& name,
   kept.reserve(text.size());
   int line_number = 0, left_out = 0, first = 0;
   while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
+    const std::string_view line = take_until(text, '\n');
     ++line_number;
     const auto words = words_of(line);
     if (!words.empty() && has_stamp(words.size()) && is_missing(words[0])) {
@@ -159,9 +158,7 @@ std::string in_seconds(std::string_view text, int decimals) {
   if (decimals == 0) return std::string(text);
   std::string result;
   while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
+    const std::string_view line = take_until(text, '\n');
     const auto words = words_of(line);
     if (words.empty() || words[0].starts_with('#')) {
       result += line;

@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -18,6 +17,8 @@
 // After <unistd.h>, which declares `environ`.
 #include <fcntl.h>
 #include <spawn.h>
+
+#include "core/text.hpp"
 
 namespace aims {
 namespace {
@@ -157,8 +158,7 @@ std::string read_all(int descriptor) {
 
 std::optional<fs::path> find_ffmpeg() {
   const char* path = std::getenv("PATH");
-  std::istringstream folders(path == nullptr ? "" : path);
-  for (std::string folder; std::getline(folders, folder, ':');) {
+  for (const std::string& folder : split(path == nullptr ? "" : path, ':')) {
     const fs::path program = fs::path(folder) / "ffmpeg";
     if (!folder.empty() && access(program.c_str(), X_OK) == 0) return program;
   }

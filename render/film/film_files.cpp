@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -11,6 +10,7 @@
 #include "core/file_name.hpp"
 #include "core/files/atomic_file.hpp"
 #include "core/files/output_folder.hpp"
+#include "core/text.hpp"
 #include "render/film/ffmpeg.hpp"
 #include "render/film/film_movie.hpp"
 #include "render/film/filmed_sequence.hpp"
@@ -194,14 +194,10 @@ Result<std::vector<std::string>> write_all(const FilmedSequence& sequence,
 }  // namespace
 
 Result<PictureSize> parse_picture_size(const std::string& text) {
-  PictureSize size;
-  const char* end = text.data() + text.size();
-  const auto width = std::from_chars(text.data(), end, size.width);
-  const bool crossed = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
-  const auto height = crossed ? std::from_chars(width.ptr + 1, end, size.height) : width;
-  const bool complete = crossed && height.ec == std::errc() && height.ptr == end;
-  if (complete && size.width >= 160 && size.width <= 7680 && size.height >= 120 &&
-      size.height <= 4320) {
+  std::string_view height = text;
+  const PictureSize size{number_from<int>(take_until(height, 'x')).value_or(0),
+                         number_from<int>(height).value_or(0)};
+  if (size.width >= 160 && size.width <= 7680 && size.height >= 120 && size.height <= 4320) {
     return size;
   }
   return failure(fmt::format(

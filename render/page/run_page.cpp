@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -57,8 +56,7 @@ std::set<std::string> python_modules(const std::string& text) {
 std::vector<fs::path> python_folders() {
   std::vector<fs::path> folders = {"."};
   const char* path = std::getenv("PYTHONPATH");
-  std::istringstream parts(path == nullptr ? "" : path);
-  for (std::string part; std::getline(parts, part, ':');) {
+  for (const std::string& part : split(path == nullptr ? "" : path, ':')) {
     if (!part.empty()) folders.emplace_back(part);
   }
   return folders;

@@ -57,6 +57,25 @@ TEST(Text, IsTrimmedOfBlanksAtItsEndsAlone) {
   EXPECT_EQ(trimmed(" \t "), "");
 }
 
+TEST(Text, IsSplitWithoutAnEmptyLastPart) {
+  EXPECT_EQ(split("a.b..c", '.'), (std::vector<std::string>{"a", "b", "", "c"}));
+  EXPECT_EQ(split("a\nb\n", '\n'), (std::vector<std::string>{"a", "b"}));
+  EXPECT_TRUE(split("", ',').empty());
+  std::string_view rest = "12x34";
+  EXPECT_EQ(take_until(rest, 'x'), "12");
+  EXPECT_EQ(rest, "34");
+  EXPECT_EQ(take_until(rest, 'x'), "34");
+  EXPECT_EQ(rest, "");
+}
+
+TEST(Text, OfANumberIsThatNumberAlone) {
+  EXPECT_EQ(number_from<int>("-12"), -12);
+  EXPECT_EQ(number_from<double>("1e-3"), 1e-3);
+  for (const char* text : {"", " 1", "1 ", "+1", "1x", "300"}) {
+    EXPECT_EQ(number_from<std::uint8_t>(text), std::nullopt) << text;
+  }
+}
+
 TEST(Text, InLowerCaseKeepsWhatIsNoLetterOfAscii) {
   EXPECT_EQ(lower_case("IMU_Link[\xC3\x84]"), "imu_link[\xC3\x84]");
 }
