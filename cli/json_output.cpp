@@ -9,6 +9,7 @@
 #include <optional>
 #include <string_view>
 
+#include "bench/estimate/estimate_summary.hpp"
 #include "bench/scoring/score_record.hpp"
 #include "cli/options.hpp"
 #include "cli/terminal.hpp"
@@ -17,12 +18,10 @@ namespace aims {
 namespace {
 
 Json entries_json(const std::vector<std::string>& entries) {
-  Json json = Json::array();
-  for (const std::string& entry : entries) {
+  return json_array(entries, [](const std::string& entry) {
     Json number = Json::parse(entry, nullptr, false);
-    json.push_back(number.is_number() ? std::move(number) : Json(entry));
-  }
-  return json;
+    return number.is_number() ? number : Json(entry);
+  });
 }
 
 /// A number, truth value, text or list of these, by what the parameter expects.
@@ -70,10 +69,9 @@ Json topic_json(const TopicInfo& topic) {
 }
 
 Json cloud_json(const CloudInfo& cloud) {
-  Json fields = Json::array();
-  for (const PointFieldInfo& each : cloud.fields) {
-    fields.push_back({{"name", each.name}, {"type", each.type}, {"offset", each.offset}});
-  }
+  Json fields = json_array(cloud.fields, [](const PointFieldInfo& each) {
+    return Json{{"name", each.name}, {"type", each.type}, {"offset", each.offset}};
+  });
   const PointFieldInfo* time = cloud.time_field();
   const PointFieldInfo* ring = cloud.ring_field();
   return {{"topic", cloud.topic},
@@ -187,38 +185,29 @@ bool wants_json(std::span<char* const> words) {
 }
 
 Json list_json(const std::filesystem::path& folder, std::span<const ListedScenario> files) {
-  Json json = {{"schema", "aims.list/1"},    {"folder", folder.string()},
-               {"scenarios", Json::array()}, {"families", Json::array()},
-               {"robots", Json::array()},    {"lidars", Json::array()},
-               {"estimators", Json::array()}};
-  for (const ListedScenario& each : files) json["scenarios"].push_back(scenario_json(each));
-  for (const Family& each : families_of(files)) {
-    json["families"].push_back(
-        {{"name", each.name}, {"level_unit", each.level_unit}, {"scenarios", each.cases}});
-  }
-  for (const CatalogueEntry& each : robot_catalogue()) {
-    json["robots"].push_back({{"name", each.name}, {"description", each.description}});
-  }
-  for (const CatalogueEntry& each : lidar_catalogue()) {
-    json["lidars"].push_back({{"name", each.name}, {"description", each.description}});
-  }
-  for (const CatalogueEntry& each : estimator_catalogue()) {
-    json["estimators"].push_back({{"name", each.name}, {"description", each.description}});
-  }
-  return json;
+  const auto family_json = [](const Family& each) {
+    return Json{{"name", each.name}, {"level_unit", each.level_unit}, {"scenarios", each.cases}};
+  };
+  const auto entry_json = [](const CatalogueEntry& each) {
+    return Json{{"name", each.name}, {"description", each.description}};
+  };
+  return {{"schema", "aims.list/1"},
+          {"folder", folder.string()},
+          {"scenarios", json_array(files, scenario_json)},
+          {"families", json_array(families_of(files), family_json)},
+          {"robots", json_array(robot_catalogue(), entry_json)},
+          {"lidars", json_array(lidar_catalogue(), entry_json)},
+          {"estimators", json_array(estimator_catalogue(), entry_json)}};
 }
 
 Json config_json(const std::string& name, const Fields& fields) {
-  Json json = {{"schema", "aims.config/1"}, {"name", name}, {"parameters", Json::array()}};
-  for (const Parameter& each : fields.parameters()) {
-    json["parameters"].push_back(parameter_json(each));
-  }
-  json["lists"] = Json::array();
-  for (const ListField& each : fields.lists()) {
-    json["lists"].push_back(
-        {{"key", each.key}, {"entries", each.size()}, {"meaning", each.meaning}});
-  }
-  return json;
+  const auto list_json = [](const ListField& each) {
+    return Json{{"key", each.key}, {"entries", each.size()}, {"meaning", each.meaning}};
+  };
+  return {{"schema", "aims.config/1"},
+          {"name", name},
+          {"parameters", json_array(fields.parameters(), parameter_json)},
+          {"lists", json_array(fields.lists(), list_json)}};
 }
 
 Json info_json(const BagInfo& info) {
@@ -232,23 +221,11 @@ Json info_json(const BagInfo& info) {
                {"compression", summary.compression},
                {"lost_bytes", summary.lost_bytes},
                {"undecodable", info.undecodable},
-               {"topics", Json::array()},
-               {"clouds", Json::array()},
-               {"imus", Json::array()},
-               {"transforms", Json::array()}};
-  for (const TopicInfo& each : info.topics) json["topics"].push_back(topic_json(each));
-  for (const CloudInfo& each : info.clouds) json["clouds"].push_back(cloud_json(each));
-  for (const ImuInfo& each : info.imus) json["imus"].push_back(imu_json(each));
-  for (const TransformInfo& each : info.transforms) {
-    json["transforms"].push_back(transform_json(each));
-  }
-  const TopicsConfig& used = info.used;
-  json["used"] = {{"lidar", used.lidar},
-                  {"imu", used.imu},
-                  {"leg_odometry", used.leg_odometry},
-                  {"joint_states", used.joint_states},
-                  {"contacts", used.contacts},
-                  {"truth", used.truth}};
+               {"topics", json_array(info.topics, topic_json)},
+               {"clouds", json_array(info.clouds, cloud_json)},
+               {"imus", json_array(info.imus, imu_json)},
+               {"transforms", json_array(info.transforms, transform_json)}};
+  json["used"] = topics_json(info.used);
   json["notes"] = info.notes;
   json["warnings"] = info.warnings;
   json["refusal"] = info.refusal ? Json(*info.refusal) : Json();
@@ -256,15 +233,16 @@ Json info_json(const BagInfo& info) {
 }
 
 Json check_json(const std::filesystem::path& bag, const std::vector<RequirementCheck>& checks) {
-  Json json = {{"schema", "aims.check/1"}, {"bag", bag.string()}, {"requirements", Json::array()}};
-  for (const RequirementCheck& each : checks) {
-    json["requirements"].push_back({{"system", each.system},
-                                    {"requirement", each.requirement},
-                                    {"fulfilment", name_of(each.fulfilment)},
-                                    {"found", each.found},
-                                    {"remedy", each.remedy}});
-  }
-  return json;
+  const auto requirement_json = [](const RequirementCheck& each) {
+    return Json{{"system", each.system},
+                {"requirement", each.requirement},
+                {"fulfilment", name_of(each.fulfilment)},
+                {"found", each.found},
+                {"remedy", each.remedy}};
+  };
+  return {{"schema", "aims.check/1"},
+          {"bag", bag.string()},
+          {"requirements", json_array(checks, requirement_json)}};
 }
 
 }  // namespace aims

@@ -37,9 +37,9 @@ Result<void> write_results(const MergedSweep& sweep, const Objective& objective,
 Json points_json(const MergedSweep& sweep, const Objective& objective) {
   const auto responses = sweep_responses(sweep, objective.score);
   if (!responses || responses->empty()) return {};
-  Json json = Json::array();
-  for (const SweepResponse& each : *responses) json.push_back(response_json(each, objective));
-  return json;
+  return json_array(*responses, [&objective](const SweepResponse& each) {
+    return response_json(each, objective);
+  });
 }
 
 void print_points(const MergedSweep& sweep, const Objective& objective) {

@@ -43,12 +43,6 @@ Json estimator_json(const EstimateResult& result, const EstimatorOutcome& outcom
   return json;
 }
 
-Json warnings_json(const RecordingSetup& setup) {
-  Json json = Json::array();
-  for (const ReadingWarning& each : setup.warnings) json.push_back(each.text);
-  return json;
-}
-
 Json pose_json(const Pose& pose) {
   const Eigen::Vector3d& p = pose.translation;
   const Eigen::Quaterniond& q = pose.rotation;
@@ -64,8 +58,16 @@ std::string config_text(const EstimateConfig& config) {
 
 }  // namespace
 
+Json topics_json(const TopicsConfig& topics) {
+  return {{"lidar", topics.lidar},
+          {"imu", topics.imu},
+          {"leg_odometry", topics.leg_odometry},
+          {"joint_states", topics.joint_states},
+          {"contacts", topics.contacts},
+          {"truth", topics.truth}};
+}
+
 Json estimate_json(const EstimateResult& result) {
-  const TopicsConfig& topics = result.setup.topics;
   Json json = {{"schema", "aims.estimate/1"},
                {"version", AIMS_VERSION},
                {"bag", result.bag.string()},
@@ -73,19 +75,13 @@ Json estimate_json(const EstimateResult& result) {
                {"error", result.broken ? Json(result.broken->message) : Json()},
                {"recorded_s", result.recorded_s},
                {"wall_s", result.wall_s},
-               {"topics",
-                {{"lidar", topics.lidar},
-                 {"imu", topics.imu},
-                 {"leg_odometry", topics.leg_odometry},
-                 {"joint_states", topics.joint_states},
-                 {"contacts", topics.contacts},
-                 {"truth", topics.truth}}},
+               {"topics", topics_json(result.setup.topics)},
                {"T_body_lidar", pose_json(result.setup.rig.T_body_lidar)},
                {"T_body_base", pose_json(result.setup.rig.T_body_base)},
                {"imu_rate_hz", result.setup.rig.imu_rate_hz},
                {"leg_rate_hz", result.setup.rig.leg_rate_hz},
                {"notes", result.setup.notes},
-               {"warnings", warnings_json(result.setup)},
+               {"warnings", json_array(result.setup.warnings, &ReadingWarning::text)},
                {"counts", result.counts}};
   for (const EstimatorOutcome& each : result.estimators) {
     json["estimators"][each.name] = estimator_json(result, each);

@@ -34,10 +34,7 @@ Json summary_json(const SeedRuns& seeds) {
                                                {"count", over_seeds.count}};
     }
   }
-  summary["expectations"] = Json::array();
-  for (const ExpectationCheck& check : check_expectations(scenario, runs)) {
-    summary["expectations"].push_back(check_json(check));
-  }
+  summary["expectations"] = json_array(check_expectations(scenario, runs), check_json);
   return summary;
 }
 

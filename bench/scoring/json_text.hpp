@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -43,6 +44,14 @@ Value value_in(const Json& json, const std::string& key, Value fallback) {
 /// As above for a text.
 inline std::string value_in(const Json& json, const std::string& key, const char* fallback) {
   return value_in(json, key, std::string(fallback));
+}
+
+/// What `to_json`, a function or a member, makes of each element.
+template <class Range, class ToJson>
+Json json_array(const Range& range, ToJson to_json) {
+  Json array = Json::array();
+  for (const auto& each : range) array.push_back(Json(std::invoke(to_json, each)));
+  return array;
 }
 
 /// The member of that key; null when `json` is no object or has none.

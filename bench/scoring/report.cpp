@@ -21,6 +21,10 @@ std::string interval_text(const Interval& interval, const std::string& format, c
                      number_text(interval.high, format));
 }
 
+Json interval_json(const Interval& interval) {
+  return Json::array({json_of(interval.low), json_of(interval.high)});
+}
+
 std::string cell_text(const Json& value, const std::string& format, const char* none) {
   if (value.is_null()) return none;
   if (value.is_string()) return value.get<std::string>();

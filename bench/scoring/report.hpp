@@ -23,6 +23,9 @@ std::string number_text(const std::optional<double>& value, const std::string& f
 std::string interval_text(const Interval& interval, const std::string& format,
                           const char* none = "-");
 
+/// [low, high], null for an end that the data do not determine.
+Json interval_json(const Interval& interval);
+
 /// A value of JSON as a cell.
 std::string cell_text(const Json& value, const std::string& format, const char* none);
 void add_cell(const Json& value, CsvTable& table);
@@ -69,9 +72,7 @@ Json row_json(const TableColumns<Row>& columns, const Row& row) {
 /// All rows as a JSON array.
 template <class Row, class Rows>
 Json rows_json(const TableColumns<Row>& columns, const Rows& rows) {
-  Json json = Json::array();
-  for (const Row& row : rows) json.push_back(row_json(columns, row));
-  return json;
+  return json_array(rows, [&columns](const Row& row) { return row_json(columns, row); });
 }
 
 /// The rows column by column, as a JSON object of arrays; null without rows.

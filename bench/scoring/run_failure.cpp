@@ -65,14 +65,12 @@ std::string markdown_list(std::span<const RunFailure> failures) {
 }
 
 Json failures_json(std::span<const RunFailure> failures) {
-  Json list = Json::array();
-  for (const RunFailure& each : failures) {
-    list.push_back({{"scenario", each.scenario},
-                    {"seed", each.seed ? Json(*each.seed) : Json()},
-                    {"estimator", each.estimator},
-                    {"message", each.message}});
-  }
-  return list;
+  return json_array(failures, [](const RunFailure& each) {
+    return Json{{"scenario", each.scenario},
+                {"seed", each.seed ? Json(*each.seed) : Json()},
+                {"estimator", each.estimator},
+                {"message", each.message}};
+  });
 }
 
 namespace {

@@ -67,11 +67,9 @@ Json estimator_json(const EstimatorOutcome& outcome) {
 }
 
 Json segments_json(const Scores& scores) {
-  Json segments = Json::array();
-  for (const SegmentDistance& distance : scores.segments) {
-    segments.push_back({{"name", distance.segment.name}, {"length_m", distance.true_distance_m}});
-  }
-  return segments;
+  return json_array(scores.segments, [](const SegmentDistance& distance) {
+    return Json{{"name", distance.segment.name}, {"length_m", distance.true_distance_m}};
+  });
 }
 
 const Json& estimator_in(const RunRecord& record, const std::string& estimator) {

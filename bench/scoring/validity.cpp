@@ -99,11 +99,9 @@ std::vector<InvalidRun> invalid_runs(std::span<const RunRecord> runs) {
 }
 
 Json invalid_json(std::span<const RunRecord> runs) {
-  Json json = Json::array();
-  for (const auto& [seed, reason] : invalid_runs(runs)) {
-    json.push_back({{"seed", seed}, {"reason", reason}});
-  }
-  return json;
+  return json_array(invalid_runs(runs), [](const InvalidRun& run) {
+    return Json{{"seed", run.seed}, {"reason", run.reason}};
+  });
 }
 
 std::string left_out_text(std::span<const RunRecord> runs) {

@@ -68,10 +68,6 @@ CsvTable csv_of(const ConsistencyStudy& study) {
   return table;
 }
 
-Json interval_json(const Interval& interval) {
-  return Json::array({json_of(interval.low), json_of(interval.high)});
-}
-
 Json coverage_json(const Coverage& coverage) {
   return {{"inside", coverage.inside},
           {"of", coverage.runs},

@@ -47,10 +47,9 @@ const TableColumns<DetectorScore>& score_columns() {
 
 Json score_json(const DetectorScore& score) {
   Json json = row_json(score_columns(), score);
-  json["curve"] = Json::array();
-  for (const RocPoint& point : score.curve) {
-    json["curve"].push_back({point.false_positive_rate, point.true_positive_rate});
-  }
+  json["curve"] = json_array(score.curve, [](const RocPoint& point) {
+    return std::array{point.false_positive_rate, point.true_positive_rate};
+  });
   return json;
 }
 
@@ -66,20 +65,21 @@ Json study_json(const DetectorStudy& study) {
     indices[index.name] = {{"degenerate_when", index.high_is_degenerate ? "high" : "low"},
                            {"source", index.source}};
   }
-  Json runs = Json::array();
-  for (const DetectorRun& run : study.runs) {
-    runs.push_back({{"scenario", run.scenario},
-                    {"seed", run.seed},
-                    {"scans", run.scans.size()},
-                    {"without_update", run.without_update},
-                    {"without_truth", run.without_truth}});
-  }
-  Json scores = Json::array();
-  for (const DetectorScore& score : study.scores) scores.push_back(score_json(score));
-  return {{"schema", "aims.detectors/2"},  {"estimator", study.estimator},
-          {"false_alarms", kFalseAlarms},  {"equivalent_returns_below", std::move(levels)},
-          {"indices", std::move(indices)}, {"runs", std::move(runs)},
-          {"scores", std::move(scores)},   {"warnings", study.warnings}};
+  Json runs = json_array(study.runs, [](const DetectorRun& run) {
+    return Json{{"scenario", run.scenario},
+                {"seed", run.seed},
+                {"scans", run.scans.size()},
+                {"without_update", run.without_update},
+                {"without_truth", run.without_truth}};
+  });
+  return {{"schema", "aims.detectors/2"},
+          {"estimator", study.estimator},
+          {"false_alarms", kFalseAlarms},
+          {"equivalent_returns_below", std::move(levels)},
+          {"indices", std::move(indices)},
+          {"runs", std::move(runs)},
+          {"scores", json_array(study.scores, score_json)},
+          {"warnings", study.warnings}};
 }
 
 std::string auc_text(const DetectorScore& score) {

@@ -217,24 +217,20 @@ std::string alike_text(const FamilyResult& family) {
 }
 
 Json families_json(const std::vector<FamilyResult>& families) {
-  Json json = Json::array();
-  for (const FamilyResult& family : families) {
-    Json returns = Json::array();
-    for (const auto& value : family.equivalent_returns) returns.push_back(json_of(value));
+  return json_array(families, [](const FamilyResult& family) {
     Json curves = Json::object();
     for (const FamilyCurve& curve : family.curves) {
-      Json points = Json::array();
-      for (const FamilyPoint& point : curve.points) points.push_back(point_json(point));
-      curves[curve.estimator] = {{"breaks_at", curve.breaks_at}, {"points", std::move(points)}};
+      curves[curve.estimator] = {{"breaks_at", curve.breaks_at},
+                                 {"points", json_array(curve.points, point_json)}};
     }
-    json.push_back({{"name", family.name},
-                    {"level_unit", family.level_unit},
-                    {"mildest_level", family.mildest},
-                    {"alike_levels", family.alike ? Json(*family.alike) : Json()},
-                    {"median_equivalent_returns", std::move(returns)},
-                    {"estimators", std::move(curves)}});
-  }
-  return json;
+    return Json{{"name", family.name},
+                {"level_unit", family.level_unit},
+                {"mildest_level", family.mildest},
+                {"alike_levels", family.alike ? Json(*family.alike) : Json()},
+                {"median_equivalent_returns",
+                 json_array(family.equivalent_returns, [](auto value) { return json_of(value); })},
+                {"estimators", std::move(curves)}};
+  });
 }
 
 }  // namespace aims

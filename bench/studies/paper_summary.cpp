@@ -59,8 +59,7 @@ const TableColumns<OrderRow>& order_columns() {
 
 Json cell_json(const PaperCell& cell) {
   Json json = row_json(cell_columns(), cell);
-  json["values"] = Json::array();
-  for (const double value : cell.values) json["values"].push_back(json_of(value));
+  json["values"] = json_array(cell.values, [](double value) { return json_of(value); });
   return json;
 }
 
@@ -72,23 +71,19 @@ Json system_json(const PaperSystem& system) {
   for (std::size_t i = 0; i < system.headline.size(); ++i) {
     json["headline"][headline_scores()[i].key] = json_of(system.headline[i]);
   }
-  json["scores"] = Json::array();
-  for (const PaperCell& cell : system.cells) json["scores"].push_back(cell_json(cell));
+  json["scores"] = json_array(system.cells, cell_json);
   return json;
 }
 
 Json experiment_json(const PaperExperiment& experiment) {
-  Json columns = Json::array();
-  for (const PaperOrder& order : experiment.orders) {
-    columns.push_back(row_json(order_columns(), {experiment.scenario, order}));
-  }
-  Json systems = Json::array();
-  for (const PaperSystem& system : experiment.systems) systems.push_back(system_json(system));
+  Json columns = json_array(experiment.orders, [&experiment](const PaperOrder& order) {
+    return row_json(order_columns(), {experiment.scenario, order});
+  });
   return {{"scenario", experiment.scenario},
           {"title", experiment.title},
           {"seeds", experiment.seeds},
           {"columns", std::move(columns)},
-          {"systems", std::move(systems)}};
+          {"systems", json_array(experiment.systems, system_json)}};
 }
 
 CsvTable paper_csv(const std::vector<PaperExperiment>& experiments) {
@@ -151,9 +146,7 @@ TextTable order_table(const std::vector<PaperExperiment>& experiments) {
 }
 
 Json paper_json(const std::vector<PaperExperiment>& experiments) {
-  Json list = Json::array();
-  for (const PaperExperiment& each : experiments) list.push_back(experiment_json(each));
-  return {{"schema", kPaperSchema}, {"experiments", std::move(list)}};
+  return {{"schema", kPaperSchema}, {"experiments", json_array(experiments, experiment_json)}};
 }
 
 Result<void> write_paper(const std::vector<PaperExperiment>& experiments, const Suite& suite,

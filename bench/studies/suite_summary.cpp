@@ -91,10 +91,9 @@ std::vector<std::string> estimators_of(const Suite& suite) {
 Json suite_json(const Suite& suite) {
   Json json = study_head(kSuiteSchema, suite);
   json["interval"] = "95 % percentile bootstrap of the median over seeds, 1000 replicates";
-  json["scenarios"] = Json::array();
+  json["scenarios"] = json_array(suite.cases, case_json);
   json["failures"] = failures_json(suite.failures);
   json["settings"] = suite.settings;
-  for (const SuiteCase& each : suite.cases) json["scenarios"].push_back(case_json(each));
   return json;
 }
 

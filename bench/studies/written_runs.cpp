@@ -124,10 +124,7 @@ Result<void> write_run(const JobStore& store, const Suite& suite, const SuiteCas
 
 Json run_scores(const Scenario& scenario, const RunRecord& record) {
   Json scores = record.scores;
-  scores["expectations"] = Json::array();
-  for (const ExpectationCheck& check : check_expectations(scenario, {&record, 1})) {
-    scores["expectations"].push_back(check_json(check));
-  }
+  scores["expectations"] = json_array(check_expectations(scenario, {&record, 1}), check_json);
   return scores;
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "bench/scoring/json_text.hpp"
 #include "core/file_name.hpp"
@@ -22,8 +21,6 @@ namespace aims {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 constexpr const char* kStartAligned = "estimates aligned by their start alone";
 
 TrajectoryPlot trajectories_of(const FilmedSequence& sequence) {

@@ -14,8 +14,6 @@
 namespace aims {
 namespace {
 
-using Json = PageData::Json;
-
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 /// Stamps of one scan in two files differ by their rounding alone.
 constexpr Duration kSameScan = kMillisecond;

@@ -91,9 +91,8 @@ std::vector<std::size_t> ordered_in_space(std::span<const Vector3f> points,
   return order;
 }
 
-PageData::Json map_json(std::span<const Vector3f> points, const Pose& T_world_odom,
-                        const SurfaceDistance* surface, std::size_t most, bool roofed,
-                        PageData& page) {
+Json map_json(std::span<const Vector3f> points, const Pose& T_world_odom,
+              const SurfaceDistance* surface, std::size_t most, bool roofed, PageData& page) {
   if (points.empty()) return {};
   std::vector<Vector3f> cloud = thinned_cloud(points, most);
   for (Vector3f& point : cloud) point = (T_world_odom * point.cast<double>()).cast<float>();
@@ -111,7 +110,7 @@ PageData::Json map_json(std::span<const Vector3f> points, const Pose& T_world_od
           {"points", points.size()},
           {"below", std::count(below.begin(), below.end(), true)},
           {"p", page.q16(places, 3, {.least_step = kMapStep, .relative = 0.0})},
-          {"error", surface == nullptr ? PageData::Json() : page.u8(errors)},
+          {"error", surface == nullptr ? Json() : page.u8(errors)},
           {"error_max", kLargestMapError}};
 }
 

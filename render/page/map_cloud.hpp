@@ -34,9 +34,8 @@ std::size_t most_points(std::size_t maps);
 /// "below" `kCeilingCut` first; places "p" in steps of `kMapStep`; distances to the true surface as
 /// bytes of `kLargestMapError`, null without a surface. Null without points. `most`: as of
 /// `most_points`; `roofed`: whether there may be a ceiling.
-PageData::Json map_json(std::span<const Eigen::Vector3f> points, const Pose& T_world_odom,
-                        const SurfaceDistance* surface, std::size_t most, bool roofed,
-                        PageData& page);
+Json map_json(std::span<const Eigen::Vector3f> points, const Pose& T_world_odom,
+              const SurfaceDistance* surface, std::size_t most, bool roofed, PageData& page);
 
 /// Indices of points, those that `first` holds before the others, each part along a space-filling
 /// curve: neighbours in the list are neighbours in space, which compresses well.

@@ -112,8 +112,7 @@ std::vector<std::uint16_t> folded_differences(const std::vector<std::uint16_t>& 
 
 }  // namespace
 
-PageData::Json PageData::append(const char* type, const void* values, std::size_t bytes,
-                                std::size_t count) {
+Json PageData::append(const char* type, const void* values, std::size_t bytes, std::size_t count) {
   pad(block_, kArrayAlignment);
   std::string text;
   if (bytes > 0) text.assign(static_cast<const char*>(values), bytes);
@@ -122,21 +121,21 @@ PageData::Json PageData::append(const char* type, const void* values, std::size_
   return {{"$", type}, {"at", place->second}, {"n", count}};
 }
 
-PageData::Json PageData::f32(std::span<const float> values) {
+Json PageData::f32(std::span<const float> values) {
   return append("f32", values.data(), values.size_bytes(), values.size());
 }
 
-PageData::Json PageData::f32(std::span<const double> values) {
+Json PageData::f32(std::span<const double> values) {
   const std::vector<float> single(values.begin(), values.end());
   return f32(std::span<const float>(single));
 }
 
-PageData::Json PageData::u8(std::span<const std::uint8_t> values) {
+Json PageData::u8(std::span<const std::uint8_t> values) {
   return append("u8", values.data(), values.size_bytes(), values.size());
 }
 
-PageData::Json PageData::q16(std::span<const double> values, std::size_t components,
-                             const Precision& precision) {
+Json PageData::q16(std::span<const double> values, std::size_t components,
+                   const Precision& precision) {
   std::string bytes;
   Json columns = Json::array();
   for (std::size_t k = 0; k < components; ++k) {

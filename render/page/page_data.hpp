@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -45,8 +44,6 @@ inline constexpr std::string_view kPageSchema = "aims.page/2";
 /// What a page shows: a JSON document, and the arrays that it refers to as one block of bytes.
 class PageData {
  public:
-  using Json = nlohmann::ordered_json;
-
   std::string title;
   Json json = Json::object();
 

@@ -186,14 +186,12 @@ Json partial_json(const RunFolder& run) {
 }
 
 Json changes_json(const RunFolder& run) {
-  Json list = Json::array();
-  for (const ConfigChange& each : run.changes) {
-    list.push_back({{"key", each.key},
-                    {"value", each.value},
-                    {"default", each.default_value ? Json(*each.default_value) : Json()},
-                    {"unit", each.unit}});
-  }
-  return list;
+  return json_array(run.changes, [](const ConfigChange& each) {
+    return Json{{"key", each.key},
+                {"value", each.value},
+                {"default", each.default_value ? Json(*each.default_value) : Json()},
+                {"unit", each.unit}};
+  });
 }
 
 Json diverged_at_json(const RunFolder& run, const std::string& name, double start) {

@@ -15,8 +15,6 @@
 namespace aims {
 namespace {
 
-using Json = PageData::Json;
-
 constexpr Duration kTruthShown = 100 * kMillisecond;
 /// A run whose first stamp is less began at 0.
 constexpr Time kAtStart = kSecond;

@@ -13,8 +13,6 @@ namespace aims {
 namespace {
 
 using Eigen::Vector3f;
-using Json = PageData::Json;
-
 /// Rows of one scan in scans.csv.
 struct Rows {
   double stamp = 0.0;  ///< [s]

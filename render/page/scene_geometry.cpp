@@ -96,19 +96,17 @@ void add_floor(const Floor& floor, SurfaceGeometry& geometry) {
   }
 }
 
-PageData::Json people_json(const Scene& scene) {
-  PageData::Json list = PageData::Json::array();
-  for (const Person& person : scene.people) {
-    list.push_back({{"from", {person.from.x(), person.from.y()}},
-                    {"to", {person.to.x(), person.to.y()}},
-                    {"turn", person.turn},
-                    {"ground", person.ground},
-                    {"speed", person.speed},
-                    {"start", person.start},
-                    {"radius", person.radius},
-                    {"height", person.height}});
-  }
-  return list;
+Json people_json(const Scene& scene) {
+  return json_array(scene.people, [](const Person& person) {
+    return Json{{"from", {person.from.x(), person.from.y()}},
+                {"to", {person.to.x(), person.to.y()}},
+                {"turn", person.turn},
+                {"ground", person.ground},
+                {"speed", person.speed},
+                {"start", person.start},
+                {"radius", person.radius},
+                {"height", person.height}};
+  });
 }
 
 std::vector<float> numbers_of(const std::vector<Vector3f>& points) {
@@ -128,7 +126,7 @@ SceneGeometry scene_geometry(const Scene& scene) {
   return geometry;
 }
 
-PageData::Json scene_json(const Scene& scene, PageData& page) {
+Json scene_json(const Scene& scene, PageData& page) {
   const SceneGeometry geometry = scene_geometry(scene);
   Vector3f min = geometry.open.edges.front();
   Vector3f max = min;

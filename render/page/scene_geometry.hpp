@@ -26,6 +26,6 @@ struct SceneGeometry {
 SceneGeometry scene_geometry(const Scene& scene);
 
 /// `scene_geometry` with the floor's extent, the bounds of all of it, and how the people walk.
-PageData::Json scene_json(const Scene& scene, PageData& page);
+Json scene_json(const Scene& scene, PageData& page);
 
 }  // namespace aims

@@ -15,8 +15,6 @@
 
 namespace aims {
 
-using Json = PageData::Json;
-
 namespace {
 
 bool has_number(const Numbers& values) {
@@ -80,8 +78,8 @@ Json poses_json(const Trajectory& poses, double start, PageData& page) {
   return {{"t", stamp_column(t, page)}, {"p", column(p, page, 3)}, {"q", column(q, page, 4)}};
 }
 
-PageData::Json palette_json() {
-  PageData::Json palette = PageData::Json::array();
+Json palette_json() {
+  Json palette = Json::array();
   for (std::size_t i = 0; i < kSeriesStyles; ++i) {
     const SeriesStyle style = series_style(i);
     const auto dashes = dash_lengths(style.pattern);
@@ -108,8 +106,8 @@ Json score_list_json(const std::string& lead, const std::string& lead_unit) {
   return list;
 }
 
-PageData::Json styles_json(const std::vector<std::string>& labels) {
-  PageData::Json styles = PageData::Json::object();
+Json styles_json(const std::vector<std::string>& labels) {
+  Json styles = Json::object();
   const std::vector<std::size_t> indices = series_styles(labels);
   for (std::size_t i = 0; i < labels.size(); ++i) styles[labels[i]] = indices[i];
   return styles;

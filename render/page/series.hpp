@@ -27,10 +27,10 @@ std::vector<std::size_t> shown(std::size_t count);
 
 /// Reference to the values of `components` quantized columns, a row after the other; null when none
 /// of them is a number.
-PageData::Json column(const Numbers& values, PageData& page, std::size_t components = 1);
+Json column(const Numbers& values, PageData& page, std::size_t components = 1);
 
 /// Reference to stamps, which are not quantized; null when none of them is a number.
-PageData::Json stamp_column(const Numbers& values, PageData& page);
+Json stamp_column(const Numbers& values, PageData& page);
 
 /// The numbers of a table's column at those rows: NaN at row -1, and everywhere when the table has
 /// no such column.
@@ -42,24 +42,23 @@ using ColumnNames = std::vector<std::pair<std::string, std::string>>;
 
 /// Adds those columns at those rows to `json`.
 Result<void> add_columns(const CsvColumns& table, const ColumnNames& names,
-                         const std::vector<std::ptrdiff_t>& rows, PageData& page,
-                         PageData::Json& json);
+                         const std::vector<std::ptrdiff_t>& rows, PageData& page, Json& json);
 
 void append(const Eigen::Vector3d& v, Numbers& values);
 
 /// "t" [s] after `start`, "p" and "q" (x y z w) of the poses.
-PageData::Json poses_json(const Trajectory& poses, double start, PageData& page);
+Json poses_json(const Trajectory& poses, double start, PageData& page);
 
 /// The styles of core/series_style.hpp: a list of {"light", "dark", "dash"}, colours as "#rrggbb",
 /// dashes as lengths of line and gap in turn [px].
-PageData::Json palette_json();
+Json palette_json();
 
 /// The list of scores: key, title, unit, which is "better" (smaller, larger or neither); before it
 /// `lead`, the score of a data set, if there is one, in the unit of its authors.
 Json score_list_json(const std::string& lead = "", const std::string& lead_unit = "");
 
 /// Index of the style of each label.
-PageData::Json styles_json(const std::vector<std::string>& labels);
+Json styles_json(const std::vector<std::string>& labels);
 
 /// Results of a detector study for a page: detectors.json with each score's curve
 /// as an array of the page (false-alarm rate and detection rate, alternating). Pooled curves

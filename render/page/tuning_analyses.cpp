@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "bench/scoring/report.hpp"
 #include "bench/scoring/score_record.hpp"
 #include "bench/scoring/score_statistics.hpp"
 #include "bench/tuning/analysis.hpp"
@@ -25,21 +26,11 @@ constexpr std::size_t kMostFamilies = 12;     ///< with a curve of their own
 constexpr std::size_t kMostMaps = 28;         ///< pairs of parameters
 constexpr std::size_t kMostFamilyMaps = 112;  ///< pairs and families
 
-Json interval_json(const Interval& interval) {
-  return Json::array({json_of(interval.low), json_of(interval.high)});
-}
-
-Json intervals_json(const std::vector<Interval>& intervals) {
-  Json json = Json::array();
-  for (const Interval& each : intervals) json.push_back(interval_json(each));
-  return json;
-}
-
 Json best_json(const ResponseTable& table, const BestPoint& best) {
   return {{"values", best.values},
           {"is_default", best.is_default()},
           {"text", text_of(best, table)},
-          {"between", intervals_json(best.between)},
+          {"between", json_array(best.between, interval_json)},
           {"without_effect", best.without_effect},
           {"objective", json_of(best.objective)},
           {"objective_interval", interval_json(best.objective_interval)},
@@ -53,10 +44,8 @@ Json best_json(const ResponseTable& table, const BestPoint& best) {
 Json sensitivity_json(const Sensitivity& sensitivity, std::size_t parameters) {
   const SobolIndices& indices = sensitivity.indices;
   Json second = Json::array();
-  for (Eigen::Index i = 0; i < indices.second.rows(); ++i) {
-    Json row = Json::array();
-    for (Eigen::Index k = 0; k < indices.second.cols(); ++k) row.push_back(indices.second(i, k));
-    second.push_back(std::move(row));
+  for (const auto& row : indices.second.rowwise()) {
+    second.push_back(std::vector<double>(row.begin(), row.end()));
   }
   Json negligible = Json::array();
   for (std::size_t i = 0; i < parameters; ++i) negligible.push_back(sensitivity.is_negligible(i));
@@ -69,7 +58,7 @@ Json sensitivity_json(const Sensitivity& sensitivity, std::size_t parameters) {
                {"fit", nullptr},
                {"first", indices.first},
                {"total", indices.total},
-               {"total_interval", intervals_json(indices.total_interval)},
+               {"total_interval", json_array(indices.total_interval, interval_json)},
                {"second", std::move(second)},
                {"negligible", std::move(negligible)}};
   if (sensitivity.of_part) {

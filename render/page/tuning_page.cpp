@@ -255,11 +255,9 @@ std::string title_of(const TuningSource& source, const VariedParameters& varied)
 }
 
 Json sequences_json(const std::vector<ResponseCase>& sequences) {
-  Json json = Json::array();
-  for (const ResponseCase& each : sequences) {
-    json.push_back({{"scenario", each.scenario}, {"family", each.family}, {"seed", each.seed}});
-  }
-  return json;
+  return json_array(sequences, [](const ResponseCase& each) {
+    return Json{{"scenario", each.scenario}, {"family", each.family}, {"seed", each.seed}};
+  });
 }
 
 Json counts_json(const MergedSweep& units) {
