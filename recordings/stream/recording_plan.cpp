@@ -12,13 +12,15 @@
 #include <string_view>
 #include <utility>
 
+#include "core/files/yaml_config.hpp"
+#include "core/leg_geometry.hpp"
 #include "recordings/frames/configured_extrinsic.hpp"
 #include "recordings/messages/message_types.hpp"
 #include "recordings/source/recording_file.hpp"
-#include "recordings/stream/recorded_legs.hpp"
 #include "recordings/stream/recording_survey.hpp"
 #include "recordings/stream/single_legs.hpp"
 #include "recordings/topics/connection_decoders.hpp"
+#include "recordings/topics/recording_topics.hpp"
 #include "recordings/topics/topic_choice.hpp"
 
 namespace aims {
@@ -46,6 +48,30 @@ class Elapsed {
   std::optional<Time> last_;
   Duration passed_ = 0;
 };
+
+/// The legs of the robot, as the scenario in a simulated recording states them; nothing where no
+/// scenario does. Rewinds the recording.
+std::optional<LegGeometry> recorded_legs(MessageSource& recording) {
+  constexpr const char* kGroup = "robot.legs";  // of a scenario
+  const std::string topic(kScenarioTopic);
+  if (type_of(recording.connections(), topic).empty()) return std::nullopt;
+  recording.select({&topic, 1});
+  recording.rewind();
+  const auto message = recording.next();
+  if (!message || !*message) return std::nullopt;
+  ConnectionDecoders decoders;
+  const auto view = decoders.decode(**message);
+  const auto text = view ? view->text("data") : std::nullopt;
+  if (!text) return std::nullopt;
+  LegGeometry legs;
+  const auto fields = [&legs] {
+    Fields all;
+    all.group(kGroup, legs);
+    return all;
+  };
+  const auto read = load_group_text(*text, topic, kGroup, fields);
+  return read && legs.thigh > 0.0 ? std::optional(legs) : std::nullopt;
+}
 
 /// Reads the first messages of one tf topic.
 Result<void> survey_transforms(MessageSource& bag, const std::string& topic, bool fixed,
