@@ -220,7 +220,7 @@ bool is_doubled(const EstimateResult& result) {
          warnings.end();
 }
 
-/// Likewise of the recorder's clock.
+/// Warns of the recorder's clock.
 void warn_of_record_times(EstimateResult& result) {
   if (const int early = count_of(result, "recorded_before_their_stamp"); early > 0) {
     result.setup.warnings.push_back(
@@ -247,7 +247,7 @@ void warn_of_record_times(EstimateResult& result) {
   }
 }
 
-/// Likewise of the recorder.
+/// Warns of the recorder.
 void warn_of_recorder(EstimateResult& result) {
   if (!is_doubled(result)) warn_of_record_times(result);
   if (result.summary.lost_bytes > 0) {

@@ -352,8 +352,8 @@ void EskfEstimator::extend_map() {
   mapped_.resize(points_.to_map().size());
   std::ranges::transform(points_.to_map(), mapped_.begin(),
                          [&](const Eigen::Vector3f& p) -> Eigen::Vector3f { return R * p + t; });
-  const Eigen::Matrix3d position =
-      block(belief_.covariance, ErrorState::kPosition, ErrorState::kPosition);
+  const ErrorMatrix P = stated_covariance(belief_);
+  const Eigen::Matrix3d position = block(P, ErrorState::kPosition, ErrorState::kPosition);
   const Eigen::Matrix3f covariance = (position + lidar_update_.map_covariance()).cast<float>();
   // The attitude of a start in motion is rough. With the first scan in both halves the second one
   // is matched and corrects it.
@@ -364,7 +364,7 @@ void EskfEstimator::extend_map() {
 
 void EskfEstimator::accept(Belief& belief, const Belief& updated) {
   // A sum is finite only if all of it is, and takes one pass of four lanes.
-  const bool valid = is_finite(updated.state) && std::isfinite(updated.covariance.sum()) &&
+  const bool valid = is_finite(updated.state) && std::isfinite(stated_covariance(updated).sum()) &&
                      (updated.covariance.diagonal().array() > 0.0).all();
   if (valid) {
     belief = updated;

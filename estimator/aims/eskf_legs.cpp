@@ -157,7 +157,8 @@ Eigen::Matrix3d EskfEstimator::covariance_of_soft_joints() const {
 double EskfEstimator::sigma_of_soft_legs() const {
   const double excess = excess_of_soft_joints();
   const int scale = ErrorState::kLegScale.offset;
-  return excess > 0.0 ? std::sqrt((1.0 + excess) * belief_.covariance(scale, scale)) : 0.0;
+  const double variance = stated_covariance(belief_)(scale, scale);
+  return excess > 0.0 ? std::sqrt((1.0 + excess) * variance) : 0.0;
 }
 
 /// The start counts as a scan: the first one follows.

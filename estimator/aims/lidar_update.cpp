@@ -337,7 +337,8 @@ void LidarUpdate::update_map_covariance(const VoxelMap& map, const NominalState&
                                         const Belief& predicted, const Belief& updated) {
   if (!map_covariance_enabled_) return;
   const auto position = [](const Belief& belief) {
-    return Eigen::Matrix3d(block(belief.covariance, ErrorState::kPosition, ErrorState::kPosition));
+    const ErrorMatrix P = stated_covariance(belief);
+    return Eigen::Matrix3d(block(P, ErrorState::kPosition, ErrorState::kPosition));
   };
   map_covariance_ =
       map_covariance_after_scan(map_covariance_, position(predicted), position(updated),

@@ -41,7 +41,8 @@ Eigen::MatrixXd square(double value) { return Eigen::MatrixXd::Constant(1, 1, va
 /// Of a bias: what the whole belief says at the end.
 LearnedQuantity bias_of(const Belief& belief, E::Block at, std::string name,
                         const std::string& unit, double sigma) {
-  const Eigen::Matrix3d information = block(belief.covariance, at, at).inverse();
+  const ErrorMatrix P = stated_covariance(belief);
+  const Eigen::Matrix3d information = block(P, at, at).inverse();
   const Eigen::Vector3d value = entries_of(belief.state, at.offset, 3);
   return {std::move(name), axes(unit),   information, information * value,
           three(0.0),      three(sigma), true};

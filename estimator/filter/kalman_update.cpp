@@ -101,10 +101,10 @@ Belief fuse_given_legs(const Belief& prior, const LinearMeasurement& measurement
   given.middleRows<E::kLegSize>(E::kLegScale.offset).setZero();
   const Eigen::Matrix3d variance = measurement.jacobian.lazyProduct(given) + measurement.noise;
   const Columns<3> gain = mask * Columns<3>(given.lazyProduct(variance.inverse()));
-  const Eigen::Matrix3d stated = measurement.jacobian.lazyProduct(PH) + measurement.noise;
+  const Eigen::Matrix3d of_residual = measurement.jacobian.lazyProduct(PH) + measurement.noise;
   const ErrorVector delta = -gain * measurement.residual;
   Belief fused{boxplus(prior.state, delta),
-               reset_covariance(covariance_after<3>(P, PH, gain, gain.lazyProduct(stated)), delta)};
+               reset_covariance(covariance_after<3>(P, PH, gain, gain.lazyProduct(of_residual)), delta)};
   if (prior.excess) {
     fused.excess =
         reset_covariance(excess_after<3>(*prior.excess, gain, measurement.jacobian), delta);

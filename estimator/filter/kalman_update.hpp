@@ -90,8 +90,8 @@ Belief fuse_given_legs(const Belief& prior, const LinearMeasurement& measurement
                        const GainMask& mask = {});
 
 /// One step of the iterated update: the belief after fusing `measurement`, linearized at
-/// `linearization`, with `prior`. With linearization == prior.state it is the standard update. The
-/// covariance is that of the error about the returned state.
+/// `linearization`, with `prior`. With linearization == prior.state it is the standard update. What
+/// it states (stated_covariance) is about the returned state.
 Belief fuse(const Belief& prior, const NominalState& linearization,
             const PoseMeasurement& measurement, const GainMask& mask = {});
 

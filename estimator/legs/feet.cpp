@@ -65,7 +65,8 @@ std::optional<JointState> JointDifference::update(const JointPacket& reading) {
     return std::nullopt;
   }
   const auto since = [&](const JointPacket& each) { return reading.stamp - each.stamp; };
-  while (!past_.empty() && since(past_.front()) > kLongestInterval) past_.pop_front();
+  const Duration longest = repeats_ > 0 ? kLongestRepeat : kLongestInterval;
+  while (!past_.empty() && since(past_.front()) > longest) past_.pop_front();
   while (past_.size() > 1 && since(past_[1]) >= kShortestInterval) past_.pop_front();
   std::optional<JointState> state;
   if (!past_.empty() && since(past_.front()) >= kShortestInterval) {

@@ -58,8 +58,8 @@ std::array<bool, kLegCount> FeetOdometry::contacts_of(const LegOdometrySample& s
   return contacts_reported_ ? sample.contact : all;
 }
 
-/// The true vertical velocity since the last packet [m/s]. Not that of the belief: feet pull it all
-/// the time, and a scan that corrects it says so in the height.
+/// The true vertical velocity since the last packet with new angles [m/s]. Not that of the belief:
+/// feet pull it all the time, and a scan that corrects it says so in the height.
 double FeetOdometry::climb_since_last(Time stamp, double height) {
   const double since = to_seconds(stamp - std::exchange(last_stamp_, stamp));
   const double climbed = height - std::exchange(last_height_, height);
@@ -95,9 +95,9 @@ void FeetOdometry::learn_compliance(const JointState& joints, const Eigen::Vecto
 std::optional<LinearMeasurement> FeetOdometry::measure(const LegOdometrySample& sample,
                                                        const Belief& belief,
                                                        const ImuHistory& imu) {
-  const double climb = climb_since_last(sample.stamp, belief.state.position.z());
   const std::optional<JointState> joints = joints_of_packet(sample, belief.state);
   if (!joints) return std::nullopt;
+  const double climb = climb_since_last(sample.stamp, belief.state.position.z());
   const auto [state, motion] =
       instant_before(sample.stamp, joints->age + kJointDelay, belief.state, imu);
   const auto model = [&](const LegVelocity& legs, double variance) {

@@ -73,7 +73,7 @@ class FeetOdometry {
   JointDifference difference_;
   JointCompliance compliance_;
   Time last_stamp_ = 0;
-  double last_height_ = 0.0;  ///< of the belief at the last packet [m]
+  double last_height_ = 0.0;  ///< of the belief when angles were last new [m]
   StrideMeans stride_means_;  ///< of the predicted velocity: that of a foot is too noisy
   LegVelocity velocity_;
   bool contacts_reported_ = false;  ///< by any packet so far

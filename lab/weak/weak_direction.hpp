@@ -26,7 +26,7 @@ struct WeakDirection {
   double relief = 0.0;       ///< what relief and joints of boards add
   double intensity = 0.0;    ///< what the texture of the reflectivity adds
   double legs = 0.0;         ///< of the last metre walked: the error of `leg_inertial` over 1 m
-  double believed = 0.0;     ///< that `aims_d` fused
+  double believed = 0.0;     ///< that `aims_d` stated
 };
 
 /// Casts the run's scans again into its scene with and without `scene.surface`, and runs

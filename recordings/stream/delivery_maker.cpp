@@ -34,12 +34,13 @@ void DeliveryMaker::deliver(Role role, Measurement measurement, Time stamp,
   auto& last = last_stamps_[static_cast<std::size_t>(role)];
   if (last && stamp <= *last) ++counts[std::string(name_of(role)) + "_stamp_not_increasing"];
   last = stamp;  // so that one stamp far ahead counts once
-  missing(role).add(stamp, heard_at(), period_of(role));
+  missing(role).add(stamp, heard_at(), arrived_at(), period_of(role));
   out.push_back({now_.recorded + plan.arrival_shift, std::move(measurement)});
 }
 
 void DeliveryMaker::deliver(std::optional<LegOdometrySample> sample, std::vector<Delivery>& out) {
-  for (; left_out_ < legs_left_out(); ++left_out_) missing(Role::kLegs).add_unusable(heard_at());
+  for (; left_out_ < legs_left_out(); ++left_out_)
+    missing(Role::kLegs).add_unusable(heard_at(), arrived_at());
   if (!sample) return;
   const bool finite = sample->linear_velocity.allFinite() && sample->angular_velocity.allFinite() &&
                       sample->T_odom_base.translation.allFinite();
@@ -59,21 +60,28 @@ int DeliveryMaker::legs_left_out() const {
 
 void DeliveryMaker::malformed(Role role, Time recorded) {
   ++counts[std::string(name_of(role)) + "_malformed"];
-  missing(role).add_unusable(recorded);
+  missing(role).add_unusable(recorded, recorded);
   // Of legs by joints, the periods are those of the joints.
-  if (role == Role::kJoints && legs_by_joints()) missing(Role::kLegs).add_unusable(recorded);
+  if (role == Role::kJoints && legs_by_joints())
+    missing(Role::kLegs).add_unusable(recorded, recorded);
 }
 
 void DeliveryMaker::leave_out(const Channel& channel, Time recorded) {
   for (std::size_t i = 0; i < kRoleCount; ++i) {
-    if (channel.serves[i]) missing_[i].add_unusable(recorded);
+    if (channel.serves[i]) missing_[i].add_unusable(recorded, recorded);
   }
-  if (channel.is(Role::kJoints) && legs_by_joints()) missing(Role::kLegs).add_unusable(recorded);
+  if (channel.is(Role::kJoints) && legs_by_joints())
+    missing(Role::kLegs).add_unusable(recorded, recorded);
 }
 
 /// When the current message was recorded, without what the recorder was late or held it for.
 Time DeliveryMaker::heard_at() const {
   return std::min(now_.usual.value_or(now_.recorded), plan.start + now_.position);
+}
+
+/// When it arrived: never before those of other topics that came before it.
+Time DeliveryMaker::arrived_at() const {
+  return std::min(now_.recorded, plan.start + now_.position);
 }
 
 /// Warns where the clouds come in another frame than the first ones.
@@ -123,7 +131,8 @@ void DeliveryMaker::take_cloud(const MessageView& view, std::vector<Delivery>& o
   table->stamp = stamp_of(Role::kLidar, table->stamp, 0.0);
   watch_repeats(*table);
   auto read = read_scan(*table);
-  if (!read && plan.cloud.parts.count == 1) missing(Role::kLidar).add_unusable(heard_at());
+  if (!read && plan.cloud.parts.count == 1)
+    missing(Role::kLidar).add_unusable(heard_at(), arrived_at());
   if (!read) return;
   auto scan = std::make_shared<LidarScan>(std::move(*read));
   const Duration delay = from_seconds(config_.lidar_delay);
@@ -170,7 +179,7 @@ void DeliveryMaker::take_joints(const MessageView& view, std::vector<Delivery>& 
   auto joints = joints_at(view, now_.taken(), plan.joints);
   if (!joints) return malformed(Role::kJoints, heard_at());
   joints->stamp = stamp_of(Role::kJoints, joints->stamp, config_.leg_delay);
-  missing(Role::kJoints).add(joints->stamp, heard_at(), period_of(Role::kJoints));
+  missing(Role::kJoints).add(joints->stamp, heard_at(), arrived_at(), period_of(Role::kJoints));
   deliver(legs_.add_joints(std::move(*joints), counts), out);
   while (auto more = legs_.next(counts)) deliver(std::move(more), out);
 }
@@ -188,7 +197,8 @@ void DeliveryMaker::take_contacts(const MessageView& view, std::vector<Delivery>
   const ContactReading contacts = {stamp_of(Role::kContacts, stamp, config_.leg_delay),
                                    contact_detector_.detect(*loads),
                                    forces_at(view, plan.contacts)};
-  missing(Role::kContacts).add(contacts.stamp, heard_at(), period_of(Role::kContacts));
+  missing(Role::kContacts)
+      .add(contacts.stamp, heard_at(), arrived_at(), period_of(Role::kContacts));
   deliver(legs_.add_contacts(contacts, counts), out);
   while (auto more = legs_.next(counts)) deliver(std::move(more), out);
 }
@@ -286,6 +296,7 @@ void DeliveryMaker::warn_of_absence(Role role, Time begin, Time end) {
   const bool beside = legs && (role == Role::kJoints || role == Role::kContacts);
   if (beside) begin = std::max(begin, legs->first), end = std::min(end, legs->second);
   const std::string& topic = topic_of(plan.setup.topics, source_of(role));
+  if (role == Role::kLegs && topic == plan.setup.topics.imu) return;  // said of the IMU
   const auto warn = [&](bool late, Duration absence) {
     if (absence <= MissingMessages::kLong) return;
     plan.setup.warnings.push_back(warning_of_absence(role, topic, late, absence));
@@ -305,6 +316,7 @@ void DeliveryMaker::finish() {
     begin = std::min(begin, heard->first);
     end = std::max(end, heard->second);
   }
+  begin = std::max(begin, plan.start);  // not of a clock that was not set yet
   for (const Role role : kSensors) warn_of_absence(role, begin, end);
   auto& warnings = plan.setup.warnings;
   for (ReadingWarning each : legs_.warnings()) {

@@ -68,6 +68,7 @@ class DeliveryMaker {
   int legs_left_out() const;
   bool legs_by_joints() const { return plan.setup.topics.leg_odometry.empty(); }
   Time heard_at() const;
+  Time arrived_at() const;
   MissingMessages& missing(Role role) { return missing_[static_cast<std::size_t>(role)]; }
   Role source_of(Role role) const;
   void warn_of_missing(Role role);

@@ -17,8 +17,9 @@ class MissingMessages {
  public:
   static constexpr Duration kLong = 10 * kSecond;  ///< of gaps that are named
 
-  void add(Time stamp, Time recorded, Duration period) {
-    hear(recorded);
+  /// `recorded` is without what the recorder was late or held it for, `arrived` with it.
+  void add(Time stamp, Time recorded, Time arrived, Duration period) {
+    hear(recorded, arrived);
     const bool first = received_++ == 0;
     // Behind the newest one they are of a second publisher, or late; many, and the clock was set.
     if (!first && stamp <= stamp_ && ++behind_ < kSetBack) return;
@@ -46,8 +47,8 @@ class MissingMessages {
   }
 
   /// A message came, but there is nothing in it to read: it has another count.
-  void add_unusable(Time recorded) {
-    hear(recorded);
+  void add_unusable(Time recorded, Time arrived) {
+    hear(recorded, arrived);
     ++unusable_;
   }
 
@@ -68,7 +69,7 @@ class MissingMessages {
   std::int64_t gaps() const { return gaps_; }
   Duration longest() const { return longest_; }
 
-  /// When the first and the last message of any kind were recorded; nothing: there is none.
+  /// When the first and the last message of any kind arrived; nothing: there is none.
   const std::optional<std::pair<Time, Time>>& heard() const { return heard_; }
 
  private:
@@ -76,14 +77,16 @@ class MissingMessages {
   static constexpr int kSetBack = 100;
   static constexpr Duration kLongest = 3600 * kSecond;
 
-  void hear(Time recorded) {
-    if (!heard_) heard_ = {recorded, recorded};
-    longest_wait_ = std::max(longest_wait_, recorded - heard_->second);
-    heard_->second = std::max(heard_->second, recorded);
+  void hear(Time recorded, Time arrived) {
+    if (newest_) longest_wait_ = std::max(longest_wait_, recorded - *newest_);
+    newest_ = std::max(newest_.value_or(recorded), recorded);
+    if (!heard_) heard_ = {arrived, arrived};
+    heard_->second = std::max(heard_->second, arrived);
   }
 
   Time stamp_ = 0, recorded_ = 0;  ///< of the newest message that was read
   int behind_ = 0;                 ///< messages since then
+  std::optional<Time> newest_;     ///< message of any kind
   std::optional<std::pair<Time, Time>> heard_;
   Duration longest_wait_ = 0;  ///< between messages of any kind since then
   std::int64_t received_ = 0, unusable_ = 0, steps_ = 0, gaps_ = 0;

@@ -44,7 +44,7 @@ def main():
                     for _ in range(loops * os.cpu_count())]
             play = network.start(["/usr/lib/rosbag/play", "--quiet", "--delay=2", bag],
                                  stdout=subprocess.DEVNULL)
-            wait_until(lambda: network.subscribers("/lidar/points"), 30, "the node to subscribe")
+            wait_until(lambda: network.subscribers("/lidar/points"), "the node to subscribe")
             play.wait()
             time.sleep(5)
             for each in busy:

@@ -295,7 +295,7 @@ double normalised_error_along(double facing, std::uint64_t seed) {
   const Eigen::Vector3d truth(kSigma * random.normal(), 0.0, 0.0);
   const Belief updated = fuse(truth, belief);
   const double error = updated.state.position.x() - truth.x();
-  return error * error / updated.covariance(x, x);
+  return error * error / stated_covariance(updated)(x, x);
 }
 
 TEST(LidarUpdate, TheStatedVarianceIsTheRealOneBetweenWallsWithFaces) {

@@ -4,7 +4,8 @@
 //     passes samples on from one domain to another, under the names of DDS, until standard input
 //     ends. DURABILITY: volatile or transient.
 //   fastdds_peer odometry DOMAIN TOPIC
-//     prints "matched" once it is sent, then each nav_msgs/Odometry in one line, read by Fast-CDR.
+//     prints "matched" for each publisher found, then each nav_msgs/Odometry in one line, read by
+//     Fast-CDR.
 //   fastdds_peer clouds DOMAIN TOPIC COUNT RETURNS RELIABILITY
 //     sends so many sensor_msgs/PointCloud2 at 10 Hz, once somebody listens, then five small ones,
 //     by whose numbers it is known how many of the large ones were lost. RELIABILITY: reliable (it

@@ -789,7 +789,7 @@ TEST_F(RecordingReaderTest, CloudsOfWhichNothingIsReadAreNotMissing) {
 }
 
 TEST_F(RecordingReaderTest, CloudsOfWhichNothingIsReadMakeNoPauseLonger) {
-  // In 60 s the LiDAR is silent for 4 s; for 9 s before it, its clouds are malformed.
+  // In 60 s the LiDAR is silent for 4 s, behind 9 s of malformed clouds, and later for 12 s.
   RobotRecording robot(bag());
   robot.add_transforms(kMounted);
   robot.add_imu(kStart, 3000);
