@@ -13,6 +13,9 @@ namespace aims {
 /// A row per estimator: path length, speed, and its scores when there is a truth.
 TextTable estimate_table(const EstimateResult& result);
 
+/// The topics that were read, by their keys of `recording.topics`.
+Json topics_json(const TopicsConfig& topics);
+
 /// What estimate.json holds: schema aims.estimate/1, docs/result-files.md.
 Json estimate_json(const EstimateResult& result);
 
