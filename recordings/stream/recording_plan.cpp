@@ -218,12 +218,8 @@ WithLegs with_legs(const RecordingConfig& given, MessageSource& bag, const State
   return with;
 }
 
-/// Of legs whose lengths nothing states. Who maps the columns of a table knows the robot: a note.
-void warn_of_legs(MessageSource& bag, RecordingSetup& setup) {
-  if (type_of(bag.connections(), setup.topics.contacts) == kFootForces) {
-    return setup.notes.push_back(fmt::format(
-        "leg geometry: that of a Unitree Go1, thigh {} m (leg_geometry)", kAssumedLegs.thigh));
-  }
+/// Of legs whose lengths nothing states.
+void warn_of_legs(RecordingSetup& setup) {
   setup.warnings.push_back(
       {"lengths of the legs assumed",
        fmt::format("nothing states the lengths of the legs: those of a Unitree Go1 are assumed "
@@ -347,7 +343,7 @@ Result<RecordingPlan> plan_recording(MessageSource& bag, const RecordingConfig& 
   warn_of_batches(bag, plan->setup);
   note_joined(bag, plan->setup);
   warn_of_single_legs(bag, plan->setup);
-  if (plan->setup.has_joints && !legs_are_known) warn_of_legs(bag, plan->setup);
+  if (plan->setup.has_joints && !legs_are_known) warn_of_legs(plan->setup);
   return plan;
 }
 

@@ -52,6 +52,7 @@ class Table(Walk):
                             *unitree_test.OWN_LEGS)
         found, said = self.poses(self.table("run"))
         self.assertIn("learned from", said)
+        self.assertIn("warning: nothing states the lengths of the legs", said)
         self.differ_by(found, joints, 0.03)
         self.differ_by(found, low, 1e-4)  # of float32 there
         differentiated, _ = self.poses(self.table("angles", rates=False))
