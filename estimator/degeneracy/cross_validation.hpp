@@ -66,8 +66,8 @@ inline constexpr double kFreeTilt = 0.006;
 ///
 /// Tilts below `kFreeTilt` that pass the test are those of uneven walls. Their slopes change within
 /// decimetres, less than the vector of one scan over X scatters, so the estimate would leave the
-/// range in which they pull it back. The gain counts such scans whole: W and `within_vector` ask for
-/// X / W of the displacement, a tenth, and many of them find the place (docs/estimators.md).
+/// range in which they pull it back. The gain counts such scans whole: W and `within_vector` ask
+/// for X / W of the displacement, a tenth, and many of them find the place (docs/estimators.md).
 class CrossValidatedInformation {
  public:
   /// Adds a scan at `position` [m]; scans of a robot that stands count once. `shared_tilt`: that
@@ -76,7 +76,8 @@ class CrossValidatedInformation {
            std::optional<double> shared_tilt = std::nullopt);
 
   /// A of the position with the rotation unknown and the vector that belongs to it; the rotation
-  /// with the position given is taken as real. All of the scan where only uneven walls hold it; A is then what it states.
+  /// with the position given is taken as real. Where only uneven walls hold it, all of the scan,
+  /// with A as what it states.
   PoseInformation applied_to(const HalvesInformation& scan) const;
 
   /// Projection of the position onto the directions that scans do not leave free.

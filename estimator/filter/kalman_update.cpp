@@ -103,8 +103,8 @@ Belief fuse_given_legs(const Belief& prior, const LinearMeasurement& measurement
   const Columns<3> gain = mask * Columns<3>(given.lazyProduct(variance.inverse()));
   const Eigen::Matrix3d of_residual = measurement.jacobian.lazyProduct(PH) + measurement.noise;
   const ErrorVector delta = -gain * measurement.residual;
-  Belief fused{boxplus(prior.state, delta),
-               reset_covariance(covariance_after<3>(P, PH, gain, gain.lazyProduct(of_residual)), delta)};
+  const ErrorMatrix after = covariance_after<3>(P, PH, gain, gain.lazyProduct(of_residual));
+  Belief fused{boxplus(prior.state, delta), reset_covariance(after, delta)};
   if (prior.excess) {
     fused.excess =
         reset_covariance(excess_after<3>(*prior.excess, gain, measurement.jacobian), delta);

@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace aims {
 namespace {
 
 /// Intervals over which angles are differenced: in shorter ones the resolution of the encoders
-/// decides, longer ones span the change from swing to stance.
+/// decides, longer ones without a packet span the change from swing to stance.
 constexpr Duration kShortestInterval = 4 * kMillisecond;
 constexpr Duration kLongestInterval = 30 * kMillisecond;
 
@@ -60,13 +61,14 @@ bool JointDifference::is_repeat(const JointPacket& reading) {
 }
 
 std::optional<JointState> JointDifference::update(const JointPacket& reading) {
+  const Duration silent = reading.stamp - std::exchange(last_, reading.stamp);
+  if (silent > kLongestInterval) past_.clear();
   if (is_repeat(reading)) {
     ++repeats_;
     return std::nullopt;
   }
   const auto since = [&](const JointPacket& each) { return reading.stamp - each.stamp; };
-  const Duration longest = repeats_ > 0 ? kLongestRepeat : kLongestInterval;
-  while (!past_.empty() && since(past_.front()) > longest) past_.pop_front();
+  while (!past_.empty() && since(past_.front()) > kLongestRepeat) past_.pop_front();
   while (past_.size() > 1 && since(past_[1]) >= kShortestInterval) past_.pop_front();
   std::optional<JointState> state;
   if (!past_.empty() && since(past_.front()) >= kShortestInterval) {

@@ -54,6 +54,7 @@ class JointDifference {
   std::deque<JointPacket> past_;  ///< new readings of the last milliseconds
   JointVector angle_ = JointVector::Zero();
   Time changed_ = 0;  ///< when the angles last changed
+  Time last_ = 0;     ///< of the last packet, new or not
   int repeats_ = 0;   ///< since the last new reading
 };
 

@@ -58,12 +58,12 @@ int DeliveryMaker::legs_left_out() const {
   return all;
 }
 
-void DeliveryMaker::malformed(Role role, Time recorded) {
+void DeliveryMaker::malformed(Role role, Time recorded, Time arrived) {
   ++counts[std::string(name_of(role)) + "_malformed"];
-  missing(role).add_unusable(recorded, recorded);
+  missing(role).add_unusable(recorded, arrived);
   // Of legs by joints, the periods are those of the joints.
   if (role == Role::kJoints && legs_by_joints())
-    missing(Role::kLegs).add_unusable(recorded, recorded);
+    missing(Role::kLegs).add_unusable(recorded, arrived);
 }
 
 void DeliveryMaker::leave_out(const Channel& channel, Time recorded) {
@@ -126,7 +126,7 @@ std::optional<LidarScan> DeliveryMaker::read_scan(const PointTable& table) {
 
 void DeliveryMaker::take_cloud(const MessageView& view, std::vector<Delivery>& out) {
   auto table = point_table(view);
-  if (!table) return malformed(Role::kLidar, heard_at());
+  if (!table) return malformed(Role::kLidar, heard_at(), arrived_at());
   watch_frame(view);
   table->stamp = stamp_of(Role::kLidar, table->stamp, 0.0);
   watch_repeats(*table);
@@ -144,7 +144,7 @@ void DeliveryMaker::take_cloud(const MessageView& view, std::vector<Delivery>& o
 
 void DeliveryMaker::take_imu(const MessageView& view, std::vector<Delivery>& out) {
   const auto recorded = imu_at(view, now_.taken(), counts);
-  if (!recorded) return malformed(Role::kImu, heard_at());
+  if (!recorded) return malformed(Role::kImu, heard_at(), arrived_at());
   ImuSample sample = *recorded;
   sample.stamp = stamp_of(Role::kImu, recorded->stamp, config_.imu_delay);
   if (plan.force_scale != 1.0) sample.specific_force *= plan.force_scale;
@@ -162,7 +162,7 @@ void DeliveryMaker::take_legs(const Channel& channel, const MessageView& view,
   if (plan.legs.source == LegSource::kNone) return;
   const bool twist = plan.legs.source == LegSource::kTwist;
   auto sample = twist ? twist_at(view, now_.taken()) : odometry_at(view, counts);
-  if (!sample) return malformed(Role::kLegs, heard_at());
+  if (!sample) return malformed(Role::kLegs, heard_at(), arrived_at());
   sample->stamp = stamp_of(Role::kLegs, sample->stamp, config_.leg_delay);
   deliver(twist ? legs_.add_twist(*sample) : legs_.add_odometry(*sample, counts), out);
 }
@@ -170,14 +170,14 @@ void DeliveryMaker::take_legs(const Channel& channel, const MessageView& view,
 void DeliveryMaker::take_feet(const Channel& channel, const MessageView& view,
                               std::vector<Delivery>& out) {
   auto feet = channel.state == nullptr ? std::nullopt : feet_at(view, now_.taken(), *channel.state);
-  if (!feet) return malformed(Role::kLegs, heard_at());
+  if (!feet) return malformed(Role::kLegs, heard_at(), arrived_at());
   feet->stamp = stamp_of(Role::kLegs, feet->stamp, config_.leg_delay);
   deliver(legs_.add_feet(*feet, counts), out);
 }
 
 void DeliveryMaker::take_joints(const MessageView& view, std::vector<Delivery>& out) {
   auto joints = joints_at(view, now_.taken(), plan.joints);
-  if (!joints) return malformed(Role::kJoints, heard_at());
+  if (!joints) return malformed(Role::kJoints, heard_at(), arrived_at());
   joints->stamp = stamp_of(Role::kJoints, joints->stamp, config_.leg_delay);
   missing(Role::kJoints).add(joints->stamp, heard_at(), arrived_at(), period_of(Role::kJoints));
   deliver(legs_.add_joints(std::move(*joints), counts), out);
@@ -186,7 +186,7 @@ void DeliveryMaker::take_joints(const MessageView& view, std::vector<Delivery>& 
 
 void DeliveryMaker::take_contacts(const MessageView& view, std::vector<Delivery>& out) {
   const auto loads = loads_at(view, plan.contacts);
-  if (!loads) return malformed(Role::kContacts, heard_at());
+  if (!loads) return malformed(Role::kContacts, heard_at(), arrived_at());
   // Without a stamp they are as old as joints that arrive with them.
   const Duration age =
       now_.sampled ? 0 : plan.latency[static_cast<std::size_t>(Role::kJoints)].value_or(0);
@@ -209,7 +209,7 @@ void DeliveryMaker::take_truth(const MessageView& view) {
   if (!pose) pose = message_pose(view, "transform", counts);
   const auto point = pose ? std::nullopt : vector_at(view, "point");
   if (point) pose = Pose{Eigen::Quaterniond::Identity(), *point};
-  if (!pose) return malformed(Role::kTruth, heard_at());
+  if (!pose) return malformed(Role::kTruth, heard_at(), arrived_at());
   const Time stamp = stamp_of(Role::kTruth, header_stamp(view, now_.recorded), 0.0);
   if (!pose->translation.allFinite()) {
     ++counts["truth_not_finite"];

@@ -38,7 +38,7 @@ class DeliveryMaker {
   void take(const Channel& channel, const MessageView& view, const MessageTimes& times,
             std::vector<Delivery>& out);
   /// Counts a message that contradicts its definition.
-  void malformed(Role role, Time recorded);
+  void malformed(Role role, Time recorded, Time arrived);
   /// Counts a message of which nothing is read as one that came.
   void leave_out(const Channel& channel, Time recorded);
   /// Warns of what the whole recording tells.

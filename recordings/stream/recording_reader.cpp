@@ -228,7 +228,7 @@ void RecordingReader::Impl::receive(const BagMessage& given, std::vector<Deliver
     maker.leave_out(*channel, record_time);
   }
   for (std::size_t i = 0; i < kRoleCount && !view; ++i) {
-    if (channel->serves[i]) maker.malformed(static_cast<Role>(i), record_time);
+    if (channel->serves[i]) maker.malformed(static_cast<Role>(i), record_time, record_time);
   }
   if (!readable || hold(message, *channel, *view)) return;
   maker.take(*channel, *view, {record_time, message.sampled, leapt, position, usual}, out);

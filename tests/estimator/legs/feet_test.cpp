@@ -70,6 +70,21 @@ TEST(JointDifference, AnglesThatAreSentAgainAreNoReading) {
   }
 }
 
+TEST(JointDifference, ARepeatBeforeAGapBridgesItNot) {
+  JointDifference difference;
+  const auto at = [&](int ms, double angle) {
+    return difference.update({ms * kMillisecond, JointVector::Constant(angle), JointVector::Zero()})
+        .has_value();
+  };
+  EXPECT_FALSE(at(200, 1.0));
+  EXPECT_FALSE(at(202, 1.0));
+  EXPECT_TRUE(at(204, 1.1));
+  EXPECT_FALSE(at(206, 1.1));
+  EXPECT_FALSE(at(290, 1.5));
+  EXPECT_FALSE(at(292, 1.5));
+  EXPECT_TRUE(at(294, 1.6));
+}
+
 TEST(JointDifference, AnglesThatStayAreThoseOfARobotThatStands) {
   JointDifference difference;
   const JointVector angle = JointVector::Ones();
